@@ -4,8 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <iterator>
+#include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -352,6 +354,46 @@ std::string damage_of_costs(Database& database) {
                    1000);
 }
 
+/// The types that a value of a declared column may have, as typeof() names them. NULL is left to
+/// SQLite's check.
+const char* types_of(std::string_view declared) {
+  if (declared == "INTEGER") return "'integer', 'null'";
+  return declared == "REAL" ? "'real', 'integer', 'null'" : "'text', 'null'";
+}
+
+/// Of values of other types than their columns declare, which SQLite keeps, and reads as 0.
+std::string damage_of_types(Database& database) {
+  Database whole(":memory:", Database::Access::kCreate);
+  make_tables(whole, schema_version());
+  Statement columns(whole,
+                    "SELECT t.name, c.name, c.type FROM sqlite_schema t "
+                    "JOIN pragma_table_info(t.name) c WHERE t.type = 'table' AND c.type <> ''");
+  std::map<std::string, std::string> cases;  // Of each table: the first column that is wrong.
+  while (columns.step())
+    cases[columns.text(0)] += fmt::format(" WHEN typeof({0}) NOT IN ({1}) THEN '{0}'",
+                                          columns.text(1), types_of(columns.text(2)));
+  for (const auto& [table, wrong] : cases) {
+    Statement rows(database,
+                   fmt::format("SELECT CASE{} END AS wrong FROM {} WHERE wrong IS NOT NULL LIMIT 1",
+                               wrong, table));
+    if (rows.step())
+      return fmt::format("a value of {}.{} is not of the column's type", table, rows.text(0));
+  }
+  return "";
+}
+
+/// Of times that are none: "2026-01-02T03:04:05Z" alone is one.
+std::string damage_of_times(Database& database) {
+  Statement rows(database,
+                 "SELECT number, started_utc, ended_utc FROM nightly_runs "
+                 "WHERE strftime('%Y-%m-%dT%H:%M:%SZ', started_utc) IS NOT started_utc "
+                 "OR (ended_utc <> '' "
+                 "AND strftime('%Y-%m-%dT%H:%M:%SZ', ended_utc) IS NOT ended_utc)");
+  if (!rows.step()) return "";
+  return fmt::format("nightly run {} has no time from \"{}\" to \"{}\"", rows.integer(0),
+                     printable(rows.text(1)), printable(rows.text(2)));
+}
+
 bool is_file_name(std::string_view name) {
   constexpr std::size_t kLongest = 255;
   return !name.empty() && name.size() <= kLongest && name != "." && name != ".." &&
@@ -394,7 +436,8 @@ std::string damage_of_rows(Database& database) {
     if (!note_kind_named(notes.text(1)))
       return fmt::format("nightly run {} has a note of the unknown kind \"{}\"", notes.integer(0),
                          printable(notes.text(1)));
-  for (const auto& damage_of : {damage_of_texts, damage_of_trends, damage_of_costs})
+  for (const auto& damage_of :
+       {damage_of_texts, damage_of_trends, damage_of_costs, damage_of_types, damage_of_times})
     if (std::string damage = damage_of(database); !damage.empty()) return damage;
   return damage_of_quantities(database);
 }

@@ -85,6 +85,35 @@ TEST(HistoryStore, WithTrendsThatAreNoNumbersIsRefusedByItsRow) {
   }
 }
 
+TEST(HistoryStore, WithValuesOfOtherTypesThanDeclaredIsRefusedByItsColumn) {
+  for (const auto& [change, words] :
+       {std::pair("UPDATE scores SET value = 'x'", "a value of scores.value is not "),
+        std::pair("UPDATE scores SET value = x'00'", "a value of scores.value is not "),
+        std::pair("UPDATE studies SET runs = 'x'", "a value of studies.runs is not "),
+        std::pair("UPDATE nightly_runs SET cores = 1.5", "a value of nightly_runs.cores is not "),
+        std::pair("UPDATE nightly_runs SET pinned = 'no'",
+                  "a value of nightly_runs.pinned is not "),
+        std::pair("UPDATE nightly_runs SET host = x'6869'",
+                  "a value of nightly_runs.host is not ")}) {
+    const TemporaryFolder folder;
+    HistoryStore::open(folder.path()).append(sample_nightly_run(1, 1));
+    Database(history_file(folder.path()), Database::Access::kWrite).execute(change);
+    expect_refused(folder.path(), std::string("is damaged: ") + words);
+  }
+}
+
+TEST(HistoryStore, WithATimeThatIsNoneIsRefusedByItsNightlyRun) {
+  for (const char* time : {"yesterday", "", "2026-13-01T00:00:00Z", "2026-01-01 00:00:00",
+                           "2026-01-01T00:00:00+01:00"}) {
+    const TemporaryFolder folder;
+    HistoryStore::open(folder.path()).append(sample_nightly_run(1, 1));
+    Database(history_file(folder.path()), Database::Access::kWrite)
+        .execute(std::string("UPDATE nightly_runs SET started_utc = '") + time + "'");
+    expect_refused(folder.path(),
+                   std::string("is damaged: nightly run 1 has no time from \"") + time + "\"");
+  }
+}
+
 TEST(HistoryStore, WithATextThatNoCommandLineCouldGiveIsRefused) {
   for (const char* table : {"nightly_runs SET provenance", "nightly_runs SET build",
                             "studies SET name", "findings SET sentence", "facts SET value"}) {
