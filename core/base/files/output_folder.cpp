@@ -132,6 +132,13 @@ void write_into(const Parent& parent, const std::string& name, std::string_view 
   if (durably && !synced(folder, ".")) refuse_change(path, "cannot be put on the disk");
 }
 
+/// Where a link leads; if nothing is there, where a file would be made through it.
+fs::path end_of_link(const fs::path& link) {
+  std::error_code error;
+  const fs::path there = fs::canonical(link, error);
+  return error ? real_path(link.parent_path() / fs::read_symlink(link, error)) : there;
+}
+
 }  // namespace
 
 void make_folder(const fs::path& path) {
@@ -221,10 +228,12 @@ void refuse_links_out(const fs::path& folder) {
        entry.increment(error)) {
     std::error_code unknown;
     if (!entry->is_symlink(unknown)) continue;
-    const fs::path target = fs::canonical(entry->path(), unknown);
-    if (unknown || lies_in(target, real)) continue;
+    const fs::path target = end_of_link(entry->path());
+    if (lies_in(target, real)) continue;
     // Devices and pipes are refused where they are read.
-    if (!fs::is_regular_file(target, unknown) && !fs::is_directory(target, unknown)) continue;
+    if (fs::exists(target, unknown) && !fs::is_regular_file(target, unknown) &&
+        !fs::is_directory(target, unknown))
+      continue;
     throw IoError((folder / entry->path().lexically_relative(real)).string(),
                   "is a link that leads out of the folder; put the file itself there");
   }

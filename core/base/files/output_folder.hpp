@@ -59,8 +59,8 @@ std::string part_name(const std::string& name);
 void sync_folder(const std::filesystem::path& folder);
 
 /// @throws IoError that names the first symbolic link in the folder, or in the folders below it,
-///         that leads out of it. A link to nothing leads nowhere. A path that is not a
-///         folder holds none.
+///         that leads out of it, whether or not something is there. A path that is not a folder
+///         holds none.
 /// @note One lstat() per file.
 void refuse_links_out(const std::filesystem::path& folder);
 

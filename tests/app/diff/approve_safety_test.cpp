@@ -134,7 +134,7 @@ TEST(ApproveCommand, KeepsModesLinksAndFilesOfOthers) {
   write_file(before / ".gitattributes", "*.png binary\n");
   write_file(before / "notes/README", "Not of mapproof.");
   fs::create_directory(before / "nothing");
-  fs::create_symlink("../nowhere", before / "link");
+  fs::create_symlink("nowhere", before / "link");
   fs::create_hard_link(changed, two.folder / "elsewhere.png");
   const std::string elsewhere = read_file(changed);
   ::chmod(before.c_str(), 0750);
@@ -146,7 +146,7 @@ TEST(ApproveCommand, KeepsModesLinksAndFilesOfOthers) {
   EXPECT_EQ(read_file(two.folder / "elsewhere.png"), elsewhere) << "written behind a hard link";
   EXPECT_EQ(read_file(before / ".gitattributes"), "*.png binary\n");
   EXPECT_TRUE(fs::is_directory(before / "nothing"));
-  EXPECT_EQ(fs::read_symlink(before / "link"), "../nowhere");
+  EXPECT_EQ(fs::read_symlink(before / "link"), "nowhere");
   const auto mode = [](const fs::path& path) {
     struct stat facts {};
     ::stat(path.c_str(), &facts);

@@ -82,6 +82,25 @@ TEST(HandedOverStudy, LeadsNoReportOutOfItsFolder) {
   }
 }
 
+TEST(HandedOverStudy, LeadsNoReportToWhereNothingIsOutOfItsFolder) {
+  const TemporaryFolder folder;
+  const Trap trap(folder);
+  const fs::path study = folder / "study";
+  fs::copy(kStudy, study, fs::copy_options::recursive);
+  fs::create_directories(study / "figures");
+  fs::create_symlink("../../outside/new.svg", study / "figures/fig-new.svg");
+  for (const std::vector<std::string>& command : {std::vector<std::string>{"report", study},
+                                                  {"render", study, "--figure", "none"},
+                                                  {"diff", kStudy, study}})
+    expect_named(mapproof(command), "fig-new.svg");
+  const Outcome checked = mapproof({"validate", study});
+  EXPECT_NE(checked.exit_code, 0);
+  EXPECT_NE((checked.out + checked.error).find("fig-new.svg: is a link that leads out"),
+            std::string::npos)
+      << checked.out << checked.error;
+  trap.expect_untouched();
+}
+
 TEST(HandedOverStudy, LeadsNoReportToAnotherOfItsFiles) {
   const TemporaryFolder folder;
   const fs::path study = folder / "study";

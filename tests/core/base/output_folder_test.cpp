@@ -112,17 +112,20 @@ TEST(OutputFolder, ReplacesAFileWholeAndLeavesNothingBehind) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 3);
 }
 
-TEST(LinksOut, AreThoseThatLeadToAFileOrFolderOutside) {
+TEST(LinksOut, AreThoseThatLeadOutsideWhetherOrNotSomethingIsThere) {
   const HandedOver handed;
   refuse_links_out(handed.inside);
   refuse_links_out(handed.folder / "not-there");
   write_file(handed.inside / "maps/a.json", "a");
   fs::create_symlink("maps/a.json", handed.inside / "b.json");
-  fs::create_symlink("../nowhere", handed.inside / "dangling");
+  fs::create_symlink("nowhere", handed.inside / "dangling");
+  fs::create_symlink("loop", handed.inside / "loop");
   fs::create_symlink("/dev/zero", handed.inside / "device");
   refuse_links_out(handed.inside);
   fs::create_directory(handed.inside / "deep");
-  for (const fs::path& target : {handed.mine, handed.outside, fs::path("/etc")}) {
+  for (const fs::path& target :
+       {handed.mine, handed.outside, fs::path("/etc"), handed.folder / "outside/new.txt",
+        handed.folder / "nowhere/new.txt", fs::path("../../outside/new.txt")}) {
     const fs::path link = handed.inside / "deep/link";
     fs::create_symlink(target, link);
     EXPECT_EQ(
