@@ -14,6 +14,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
+#include "core/base/files/paths.hpp"
 #include "core/base/text/words.hpp"
 #include "core/json/json_text.hpp"
 #include "core/records/studies/folder_lock.hpp"
@@ -208,8 +209,7 @@ int prune_by(HistoryStore& history, const HistoryArguments& arguments,
 int history_of(const HistoryArguments& arguments, const Invocation& invocation) {
   const Console& console = invocation.console;
   if (arguments.prune) parse_prune_rule(*arguments.prune);
-  std::error_code error;
-  if (!fs::exists(history_file(arguments.store), error))
+  if (!is_there(history_file(arguments.store)))
     throw IoError(arguments.store, "holds no history.sqlite; mapproof nightly makes one");
   refuse_links_out(arguments.store);
   HistoryStore history = HistoryStore::open_existing(arguments.store);

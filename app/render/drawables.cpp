@@ -14,6 +14,7 @@
 #include "core/base/files/files.hpp"
 #include "core/base/files/input_file.hpp"
 #include "core/base/files/output_folder.hpp"
+#include "core/base/files/paths.hpp"
 #include "core/records/maps/map_json.hpp"
 #include "core/records/studies/study_page.hpp"
 #include "core/records/studies/study_store.hpp"
@@ -46,6 +47,8 @@ std::vector<fs::path> value_files(const fs::path& folder) {
     if (name.ends_with(".figure.json") || name.ends_with(".scene.json"))
       files.push_back(entry->path());
   }
+  if (error && is_folder(folder))
+    throw IoError(folder.string(), "cannot be listed: " + error.message());
   std::ranges::sort(files);
   std::ranges::stable_partition(
       files, [](const fs::path& file) { return file.filename() == "map.figure.json"; });
@@ -85,8 +88,7 @@ Drawables from_folder(const fs::path& folder) {
   std::vector<fs::path> files = value_files(folder);
   if (files.empty()) files = value_files(folder / "figures");
   for (const fs::path& file : files) add_file(file, drawables);
-  std::error_code error;
-  if (files.empty() && fs::exists(folder / kMapFile, error))
+  if (files.empty() && is_there(folder / kMapFile))
     drawables.figures.push_back(figure_of_map(folder / kMapFile));
   if (ids_of(drawables).empty())
     throw IoError(folder.string(),

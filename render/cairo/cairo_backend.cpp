@@ -89,9 +89,12 @@ Image to_image(const Drawing& drawing) {
   Image image;
   image.width = static_cast<int>(std::lround(std::min(drawing.width * scale, 1e6)));
   image.height = static_cast<int>(std::lround(std::min(drawing.height * scale, 1e6)));
-  if (image.width < 1 || image.height < 1 || image.width > 20000 || image.height > 20000)
-    throw InvalidInput("figure " + drawing.id + ": no image is " + std::to_string(image.width) +
-                       " x " + std::to_string(image.height) + " pixels");
+  constexpr int kLargestSide = 20'000;
+  if (std::min(image.width, image.height) < 1 || std::max(image.width, image.height) > kLargestSide)
+    throw InvalidInput(
+        fmt::format("figure {}: an image has 1 to {} pixels along a side, not {} x {} (--width, "
+                    "--height, --dpi)",
+                    drawing.id, kLargestSide, image.width, image.height));
   const Colour paper = drawing.background;
   const std::size_t pixels = static_cast<std::size_t>(image.width) * image.height;
   image.pixels.reserve(pixels);

@@ -128,8 +128,10 @@ Image SceneClient::draw(const Scene& scene, const SceneRequest& request) {
     throw InvalidInput(fmt::format("scene {}: there is no view {}", scene.id, request.view));
   if (std::min(request.width, request.height) < 1 ||
       std::max(request.width, request.height) > kLargestSide)
-    throw InvalidInput(fmt::format("scene {}: no image is {} x {} pixels", scene.id, request.width,
-                                   request.height));
+    throw InvalidInput(
+        fmt::format("scene {}: an image has 1 to {} pixels along a side, not {} x {} (--width, "
+                    "--height, --dpi)",
+                    scene.id, kLargestSide, request.width, request.height));
   if (request.samples < 0 || request.samples > kMostSamples)
     throw InvalidInput(fmt::format("scene {}: {} samples per pixel", scene.id, request.samples));
   const std::lock_guard lock(mutex_);

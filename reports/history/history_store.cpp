@@ -11,6 +11,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/output_folder.hpp"
+#include "core/base/files/paths.hpp"
 #include "core/base/not_finite.hpp"
 #include "reports/history/store/database.hpp"
 #include "reports/history/store/schema.hpp"
@@ -179,8 +180,7 @@ HistoryStore HistoryStore::open(const fs::path& store) {
 
 HistoryStore HistoryStore::open_existing(const fs::path& store) {
   const fs::path path = history_file(store);
-  std::error_code error;
-  if (!fs::exists(path, error))
+  if (!is_there(path))
     throw IoError(store.string(), "holds no history.sqlite; mapproof nightly makes one");
   std::unique_ptr<Database> database = open_whole(path, Database::Access::kRead);
   const int version = version_of(*database);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <system_error>
 
+#include "core/base/errors.hpp"
+
 namespace mapproof {
 namespace {
 
@@ -18,6 +20,13 @@ bool is_at_or_below(fs::path path, const fs::path& other) {
 }
 
 }  // namespace
+
+bool is_there(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::status_known(status)) throw IoError(path.string(), "cannot be read: " + error.message());
+  return fs::exists(status);
+}
 
 fs::path real_path(const fs::path& path) {
   std::error_code error;

@@ -14,4 +14,9 @@ bool lies_in(const std::filesystem::path& path, const std::filesystem::path& fol
 /// recognised. They need not be there.
 bool overlap(const std::filesystem::path& a, const std::filesystem::path& b);
 
+/// Whether a file or a folder has the path, links followed.
+/// @throws IoError if the system refuses to say so, as of a file in a folder that may not be
+///         searched: that it is not there would be wrong.
+bool is_there(const std::filesystem::path& path);
+
 }  // namespace mapproof

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/input_file.hpp"
+#include "core/base/files/paths.hpp"
 #include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/detections/scan_rows.hpp"
@@ -169,8 +169,7 @@ RangeLog read_range_log(const fs::path& path, const RangeLogOptions& options) {
 }
 
 bool is_range_log_folder(const fs::path& folder) {
-  std::error_code error;
-  return fs::exists(plain_or_packed(folder / "ranges.csv"), error);
+  return is_there(plain_or_packed(folder / "ranges.csv"));
 }
 
 bool is_range_log(ByteSource& source, const ColumnNames& columns) {

@@ -47,7 +47,9 @@ bool is_written(const fs::path& folder) {
       "runs",          "maps",           "details",      "paths",   "convergence",
       "parts",         "errors",         "pages",        "figures", "tables",
       "figures-paper", "figures-styled", "nightly_runs", "trends",  "objects"};
-  return std::ranges::find(kNames, folder.filename().string()) != kNames.end() || is_study(folder);
+  std::error_code error;  // Where nothing may be searched, nothing of the program's is.
+  return std::ranges::find(kNames, folder.filename().string()) != kNames.end() ||
+         fs::is_regular_file(folder / kStudyFile, error);
 }
 
 Descriptor opened(const fs::path& folder) {

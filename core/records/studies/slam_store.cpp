@@ -7,6 +7,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/files/paths.hpp"
 #include "core/json/record_reader.hpp"
 #include "core/json/record_writer.hpp"
 #include "core/records/experiments/slam_experiment_json.hpp"
@@ -54,11 +55,6 @@ std::string lines_of(std::span<const Item> items) {
   std::string lines;
   for (const Item& item : items) lines += timing_line(item);
   return lines;
-}
-
-bool is_there(const fs::path& path) {
-  std::error_code error;
-  return fs::exists(path, error);
 }
 
 /// The run of that id, if it was made. @throws IoError if it is damaged.

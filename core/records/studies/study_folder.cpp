@@ -9,6 +9,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
+#include "core/base/files/paths.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/json/json_document.hpp"
 
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 bool is_study(const fs::path& folder) {
   std::error_code error;
-  return fs::is_regular_file(folder / kStudyFile, error);
+  return is_there(folder / kStudyFile) && fs::is_regular_file(folder / kStudyFile, error);
 }
 
 void require_study(const fs::path& folder) {

@@ -238,6 +238,31 @@ TEST(HandedOverStudy, IsReadFromItsFolderAlone) {
   }
 }
 
+TEST(HandedOverFolder, IsNotCalledEmptyWhereTheSystemRefusesToRead) {
+  const TemporaryFolder folder;
+  const std::string input = folder / "in", out = folder / "out";
+  struct Case {
+    const char* file;
+    std::vector<std::string> command;
+  };
+  for (const auto& [file, command] :
+       {Case{"study.json", {"render", input, "--list"}}, Case{"study.json", {"results", input}},
+        Case{"study.json", {"merge", "--check", input}},
+        Case{"study.json", {"export", input, "--out", out}},
+        Case{"history.sqlite", {"history", input}},
+        Case{"ranges.csv", {"slam", input, "--out", out}}}) {
+    fs::remove_all(input);
+    fs::create_directory(input);
+    fs::create_symlink(file, fs::path(input) / file);  // A loop, which root cannot read, either.
+    const Outcome outcome = mapproof(command);
+    EXPECT_EQ(outcome.exit_code, 2) << command.front() << outcome.out;
+    EXPECT_NE(outcome.error.find(file + std::string(": cannot be read: Too many levels")),
+              std::string::npos)
+        << command.front() << ": " << outcome.error;
+    EXPECT_FALSE(fs::exists(out));
+  }
+}
+
 TEST(ExampleCommand, WritesThroughNoLinkBelowItsFolder) {
   const TemporaryFolder folder;
   const Trap trap(folder);

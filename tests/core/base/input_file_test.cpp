@@ -13,6 +13,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/files/paths.hpp"
 #include "tests/core/records/samples.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -23,6 +24,20 @@ using test::error_of;
 
 /// "/dev/fd/7", as a shell calls it.
 std::string shell_name(int descriptor) { return "/dev/fd/" + std::to_string(descriptor); }
+
+TEST(Files, AreNotThereOnlyWhereTheSystemSaysSo) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.file("a.txt", "a");
+  EXPECT_TRUE(is_there(file));
+  EXPECT_TRUE(is_there(folder.path()));
+  EXPECT_FALSE(is_there(folder / "b.txt"));
+  EXPECT_FALSE(is_there(file / "b.txt"));
+  std::filesystem::create_symlink("loop", folder / "loop");
+  for (const std::filesystem::path& path : {folder / "loop", folder / std::string(300, 'n')})
+    EXPECT_NE(error_of([&] { is_there(path); }).find(path.string() + ": cannot be read: "),
+              std::string::npos)
+        << path;
+}
 
 /// A pipe that holds these bytes and was closed by who wrote them.
 class FilledPipe {
