@@ -329,9 +329,10 @@ std::string FindingGroup::change_text() const {
   const std::string change = fmt::format("{}\u00a0{}", low == high ? low : low + " to " + high,
                                          in_points ? "points" : "%");
   const double worsening = higher_is_better ? -least : most;
-  return worsening >= kLeastAmount
-             ? subject + " " + change
-             : fmt::format("{} got worse in pairs of runs, its median {}", subject, change);
+  if (worsening >= kLeastAmount) return subject + " " + change;
+  const bool is_unchanged = std::max(std::abs(least), std::abs(most)) < kLeastAmount;
+  return fmt::format("{} got worse in pairs of runs, its median {}", subject,
+                     is_unchanged ? "unchanged" : change);
 }
 
 std::string FindingGroup::change_of_settings() const {

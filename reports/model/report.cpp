@@ -4,12 +4,13 @@
 #include <set>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/slug.hpp"
 
 namespace mapproof {
 namespace {
 
 bool is_id(const std::string& id) {
-  return !id.empty() && id.size() <= 100 && std::ranges::all_of(id, [](char c) {
+  return !id.empty() && id.size() <= kLongestId && std::ranges::all_of(id, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
   });
 }

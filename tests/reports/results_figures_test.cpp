@@ -18,6 +18,13 @@
 namespace mapproof {
 namespace {
 
+TEST(ResultsFigures, HaveIdsThatLongNamesDoNotMakeTooLong) {
+  const std::string block(80, 'a'), what(60, 'b');
+  EXPECT_EQ(id_below("study", "mpe_m"), "study-mpe-m");
+  EXPECT_EQ(id_below(block, what).size(), kLongestId);
+  EXPECT_NE(id_below(block, what), id_below(block, what + "b"));
+}
+
 TEST(ResultsFigures, OfDataSetsShowEachMethodInEachOfThem) {
   ResultsStudy study = Rows()
                            .add("even", "a1", 0.2)

@@ -89,11 +89,13 @@ Figure wall_of(const MapsOfWorld& world, std::string id) {
     const std::size_t useless = world.maps.size() - useful;
     // Those that are of no use would make the others small.
     spec.framing = std::min(useful, spec.maps.size());
-    spec.title = fmt::format(
-        "{} is the best {}, {} off; {}", world.maps.front().first,
-        ranked_words(world.maps.size(), spec.maps.size()), error_text(error_or_infinity(best)),
-        useless == 0 ? "the others in the order of their errors"
-                     : fmt::format("{} {} not usable", useless, useless == 1 ? "is" : "are"));
+    spec.title = fmt::format("{} is the best {}, {} off", world.maps.front().first,
+                             ranked_words(world.maps.size(), spec.maps.size()),
+                             error_text(error_or_infinity(best)));
+    if (useless > 0)
+      spec.title += fmt::format("; {} {} not usable", useless, useless == 1 ? "is" : "are");
+    else if (spec.maps.size() > 2)
+      spec.title += "; the others in the order of their errors";
   } else {
     const bool is_useless = best.score && !has_use(best);
     spec.title = subject + (is_useless ? "no map is usable" : "maps of one world");

@@ -14,6 +14,7 @@
 #include "render/figures/score_text.hpp"
 #include "reports/sections/figures/map_scenes.hpp"
 #include "reports/sections/figures/map_walls.hpp"
+#include "reports/sections/results/results_conventions.hpp"
 
 namespace mapproof {
 namespace {
@@ -83,7 +84,7 @@ FigureGroup given_figures(const ResultsStudy& study, const std::vector<MapRecord
   for (Figure& wall : group.figures)
     for (std::string& id : wall.record_ids) id = "maps/" + id;
   for (const MapRecord& map : maps) {
-    const std::string id = free_id(group, study.name + "-map-" + slug_of(map.id));
+    const std::string id = free_id(group, id_below(study.name, "map-" + slug_of(map.id)));
     group.figures.push_back(map_figure(map, id, map.id));
     group.figures.back().record_ids = {"maps/" + map.id};
     titled.push_back({title_with_error(map.id, map), "the map " + map.id, &map});
@@ -91,7 +92,7 @@ FigureGroup given_figures(const ResultsStudy& study, const std::vector<MapRecord
   group.scenes = best_map_scene("scene-" + study.name + "-map", titled);
   for (const GivenPath& path : paths)
     group.figures.push_back(
-        path_figure(path, free_id(group, study.name + "-path-" + slug_of(path.id))));
+        path_figure(path, free_id(group, id_below(study.name, "path-" + slug_of(path.id)))));
   return group;
 }
 

@@ -37,6 +37,9 @@ PathErrorsSpec spec_of(const ResultsStudy& study, std::vector<const PathErrors*>
 
 }  // namespace
 
+/// Of an id that more is put behind, "-distribution" at most.
+constexpr std::size_t kLongestOfRun = kLongestId - 20;
+
 std::string path_error_prefix(const ResultsStudy& study) { return study.name + "-errors-"; }
 
 std::vector<FigureGroup> path_error_figures(const ResultsStudy& study,
@@ -46,9 +49,9 @@ std::vector<FigureGroup> path_error_figures(const ResultsStudy& study,
   std::vector<FigureGroup> groups;
   std::set<std::string> ids;
   for (auto& [run, of_run] : runs) {
-    std::string id = path_error_prefix(study) + slug_of(run);
-    for (int i = 2; !ids.insert(id).second; ++i)
-      id = fmt::format("{}{}-{}", path_error_prefix(study), slug_of(run), i);
+    const std::string first = bounded_id(path_error_prefix(study) + slug_of(run), kLongestOfRun);
+    std::string id = first;
+    for (int i = 2; !ids.insert(id).second; ++i) id = fmt::format("{}-{}", first, i);
     const std::string title = runs.size() == 1 ? "Errors of poses" : "Errors of poses, " + run;
     FigureGroup& group = groups.emplace_back(FigureGroup{id, title, "", {}});
     PathErrorsSpec spec = spec_of(study, std::move(of_run));

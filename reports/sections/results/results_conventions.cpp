@@ -8,15 +8,16 @@
 
 #include "core/base/text/error_text.hpp"
 #include "core/base/text/number_text.hpp"
+#include "core/base/text/slug.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/diagrams/value_dots.hpp"
 #include "render/figures/unit_scale.hpp"
 
 namespace mapproof {
 
-std::string figure_id(const std::string& block, std::string what) {
+std::string id_below(const std::string& block, std::string what) {
   std::ranges::replace(what, '_', '-');
-  return block + "-" + what;
+  return bounded_id(block + "-" + what, kLongestId);
 }
 
 std::string key_of(std::size_t line) { return fmt::format("line-{}", line + 1); }

@@ -12,7 +12,8 @@ namespace mapproof {
 /// More panels than these are too narrow to be read.
 inline constexpr std::size_t kMostPanels = 4;
 
-std::string figure_id(const std::string& block, std::string what);
+/// "study-setup-mpe-m": the id of a figure or table in a block, at most kLongestId long.
+std::string id_below(const std::string& block, std::string what);
 
 /// Of the line's marks.
 std::string key_of(std::size_t line);

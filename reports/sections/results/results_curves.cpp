@@ -403,7 +403,7 @@ std::string course_over(const ResultsView& view, const std::vector<std::vector<E
 std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& block,
                                    const Quantity& quantity) {
   LevelCurveSpec spec;
-  spec.id = figure_id(block.id, quantity.id);
+  spec.id = id_below(block.id, quantity.id);
   spec.x_label = view.factor_label(block.factor);
   spec.x_scale = scale_of(block.levels);
   spec.quantity = quantity.label;
@@ -439,7 +439,7 @@ std::optional<Figure> overview_figure(const ResultsView& view, const ResultsOver
   const bool has_axes = std::ranges::all_of(overview.blocks, &ResultsBlock::has_axis);
   if (!has_axes || overview.blocks.size() > kMostPanels) return std::nullopt;
   ErrorLinesSpec spec;
-  spec.id = figure_id(overview.id, quantity.id);
+  spec.id = id_below(overview.id, quantity.id);
   spec.y_label = label_with_unit(quantity);
   spec.quantity = quantity.label;
   spec.great_errors = view.has_great_errors(quantity);

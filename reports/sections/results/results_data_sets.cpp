@@ -249,7 +249,7 @@ std::optional<Figure> data_sets_figure(const ResultsView& view, const ResultsBlo
 }
 
 std::string data_sets_figure_id(const ResultsBlock& block, const Quantity& quantity) {
-  return figure_id(block.id, "data-sets-" + quantity.id);
+  return id_below(block.id, "data-sets-" + quantity.id);
 }
 
 }  // namespace mapproof

@@ -101,7 +101,7 @@ std::optional<Figure> runs_figure(const ResultsView& view, const ResultsBlock& b
                                   const Quantity& quantity) {
   const std::vector<ResultsLine> lines = view.lines(block, quantity);
   if (lines.size() < 2) return std::nullopt;
-  ValueDotsSpec spec{.id = figure_id(block.id, quantity.id),
+  ValueDotsSpec spec{.id = id_below(block.id, quantity.id),
                      .caption = fmt::format("Filled: the median {} of each method; circles: single "
                                             "runs, which are too few for a distribution.",
                                             in_sentence(quantity.label)),
@@ -141,7 +141,7 @@ std::optional<Figure> distribution_figure(const ResultsView& view, const Results
     return std::nullopt;
   if (!view.has_groups_for_intervals()) return runs_figure(view, block, quantity);
   ErrorLinesSpec spec;
-  spec.id = figure_id(block.id, quantity.id);
+  spec.id = id_below(block.id, quantity.id);
   spec.title = block.title + ": " + quantity.label;
   spec.y_label = "runs at or below [%]";
   spec.quantity = "share of runs whose " + quantity.label + " is at or below a value";

@@ -117,7 +117,7 @@ std::optional<Figure> rank_figure(const ResultsView& view, const MethodCompariso
     return std::nullopt;
   CriticalDifferenceSpec spec;
   spec.alpha = kSignificanceOfMethods;
-  spec.id = figure_id(comparison.id, "ranks-" + comparison.quantity->id);
+  spec.id = id_below(comparison.id, "ranks-" + comparison.quantity->id);
   for (std::size_t i = 0; i < comparison.methods.size(); ++i)
     spec.methods.push_back({view.study().methods[comparison.methods[i].method].label,
                             comparison.ranks->mean_ranks[i]});
@@ -173,7 +173,7 @@ FigureGroup heat_maps(const ResultsView& view, const Label& setup) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const ResultsLine& line = lines[i];
       HeatMapSpec spec;
-      spec.id = fmt::format("{}-{}-{}", id, slug_of(quantity.id), slug_of(line.method));
+      spec.id = id_below(id, slug_of(quantity.id) + "-" + slug_of(line.method));
       spec.x_label = view.factor_label(grid->x);
       spec.y_label = view.factor_label(grid->y);
       spec.x_names = names_of(grid->x_levels);

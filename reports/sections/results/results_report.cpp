@@ -279,13 +279,14 @@ void add_best_values(const ResultsReportInput& input, Highlights& numbers) {
     else if (worse == 0)
       note += left_out.empty()
                   ? "not significantly better than any other method (paired test)"
-                  : fmt::format("not significantly better than any compared (not {})", left_out);
+                  : fmt::format("not significantly better than any compared (not compared: {})",
+                                left_out);
     else
       note +=
           fmt::format("significantly better than {} {} ({})",
                       others == 1 ? "the other" : fmt::format("{} of {}", worse, others),
                       left_out.empty() ? (others == 1 ? "method" : "other methods") : "compared",
-                      left_out.empty() ? "paired test" : "not " + left_out);
+                      left_out.empty() ? "paired test" : "not compared: " + left_out);
     // Means of tables are over all runs of each method.
     if (!comparison.has_all_runs) note += "; over the " + counted(comparison.runs, "common run");
     numbers.items.push_back(
@@ -520,8 +521,9 @@ std::vector<std::string> figure_ids_of(const ResultsView& view, const StudyFigur
   std::vector<std::string> ids;
   if (const auto best = best_over_runs(view)) {
     ids.push_back(data_sets_figure_id(view.blocks().front(), *best->quantity));
-    ids.push_back(fmt::format("{}-map-{}-{}", study.name, slug_of(study.methods[best->method].id),
-                              slug_of(best->run)));
+    ids.push_back(id_below(
+        study.name,
+        fmt::format("map-{}-{}", slug_of(study.methods[best->method].id), slug_of(best->run))));
   }
   std::vector<std::vector<std::string>> groups;
   std::vector<std::string> scenes;

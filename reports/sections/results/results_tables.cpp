@@ -25,11 +25,6 @@ constexpr const char* kIntervalHint =
 constexpr const char* kSpreadHint =
     "Least and greatest of the runs, whose groups are too few for an interval of the mean.";
 
-std::string table_id(const std::string& block, std::string what) {
-  std::ranges::replace(what, '_', '-');
-  return block + "-" + what;
-}
-
 std::string column_title(const Level& level) {
   const auto* number = std::get_if<double>(&level.value);
   return number == nullptr ? level_text(level) : level_number_text(*number);
@@ -208,7 +203,7 @@ void add_notes_of_not_tried(const ResultsView& view, const std::vector<Condition
 /// One quantity over the levels.
 Table level_table(const ResultsView& view, const ResultsBlock& block, const Quantity& quantity) {
   Table table;
-  table.id = table_id(block.id, quantity.id);
+  table.id = id_below(block.id, quantity.id);
   table.caption = fmt::format("{}: {}, by {}", block.title, label_with_unit(quantity),
                               view.factor_label(block.factor));
   table.columns.push_back({"Method", "", "", ""});
@@ -263,7 +258,7 @@ std::vector<ResultsLine> all_lines(const ResultsView& view, const ResultsBlock& 
 /// All quantities of a block with one level.
 Table single_table(const ResultsView& view, const ResultsBlock& block) {
   Table table;
-  table.id = table_id(block.id, "means");
+  table.id = id_below(block.id, "means");
   table.caption = block.title;
   table.columns.push_back({"Method", "", "", ""});
   CellMaker cells(view, table);
@@ -289,7 +284,7 @@ std::optional<Table> run_table(const ResultsView& view, const ResultsBlock& bloc
   std::erase_if(lines, [&](const ResultsLine& line) { return line.run != run.id; });
   if (lines.empty()) return std::nullopt;
   Table table;
-  table.id = table_id(block.id, run.id);
+  table.id = id_below(block.id, run.id);
   table.caption = run.label + ": " + block.title;
   table.columns.push_back({"Method", "", "", ""});
   if (!block.factor.empty()) table.columns.push_back({view.factor_label(block.factor), "", "", ""});
@@ -337,7 +332,7 @@ std::vector<Table> overview_tables(const ResultsView& view, const ResultsOvervie
     const std::vector<ResultsLine> lines = distinct.take();
     if (lines.empty()) continue;
     Table table;
-    table.id = table_id(overview.id, id);
+    table.id = id_below(overview.id, id);
     table.caption = fmt::format("{}: {}{}", overview.title, label_with_unit(quantity),
                                 overview.level ? ", at " + view.level_words(*overview.level) : "");
     table.columns.push_back({"Method", "", "", ""});
@@ -363,7 +358,7 @@ Table comparison_table(const ResultsView& view, const MethodComparison& comparis
   const int places = view.decimals(quantity);
   const bool errors_m = view.has_great_errors(quantity);
   Table table;
-  table.id = table_id(comparison.id, "paired-" + quantity.id);
+  table.id = id_below(comparison.id, "paired-" + quantity.id);
   table.caption = fmt::format("{}: {} compared with the best method", where_of(comparison),
                               label_with_unit(quantity));
   table.columns = {{"Method", "", "", ""},

@@ -231,7 +231,8 @@ void ResultsView::make_overviews() {
     const std::string& setup = overview.blocks.front()->conditions.front().setup;
     const std::string& label = labels.at(setup);
     overview.title = (label.empty() ? study_.title : label) + ": overview by " + overview.factors;
-    overview.id = study_.name + "-overview-" + slug_of(setup.empty() ? "all" : setup);
+    overview.id =
+        bounded_id(study_.name + "-overview-" + slug_of(setup.empty() ? "all" : setup), 80);
     while (!ids.insert(overview.id).second) overview.id += "-more";
   }
 }

@@ -16,6 +16,7 @@
 #include "reports/sections/figures/map_scenes.hpp"
 #include "reports/sections/figures/map_walls.hpp"
 #include "reports/sections/provenance.hpp"
+#include "reports/sections/results/results_conventions.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/wording.hpp"
 
@@ -122,10 +123,11 @@ FigureGroup topic_maps(const TopicStudy& study, const std::string& prefix) {
       const std::string title = title_of(study, part, map);
       const std::string ellipses =
           map.uncertainty ? ellipses_text(map.map, *map.uncertainty) : std::string();
-      singly.push_back(measured_map_figure({prefix + "-map-" + slug_of(map.id), title + ellipses,
-                                            map.map, map.pairs, map.uncertainty}));
+      singly.push_back(
+          measured_map_figure({id_below(prefix, "map-" + slug_of(map.id)), title + ellipses,
+                               map.map, map.pairs, map.uncertainty}));
       if (!map.pairs.empty())
-        singly.push_back(pair_distances_figure({prefix + "-pairs-" + slug_of(map.id),
+        singly.push_back(pair_distances_figure({id_below(prefix, "pairs-" + slug_of(map.id)),
                                                 title + ", measured pairs", map.map, map.pairs}));
       in_space.push_back({title, series_label(study.design, map.method), &map.map});
     }
