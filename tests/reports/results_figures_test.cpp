@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/text/slug.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "reports/sections/results/given_figures.hpp"
 #include "reports/sections/results/results_comparison.hpp"
