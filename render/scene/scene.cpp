@@ -80,7 +80,7 @@ std::string positions(const std::vector<Point3>& points, const char* name) {
   return {};
 }
 
-/// Whether it can be normalised, however small the scene is: its square is no rounded-off number.
+/// Whether it can be normalised, however small the scene is: its square keeps its digits.
 bool is_direction(const Point3& p) {
   return is_position(p) && p.squaredNorm() >= std::numeric_limits<double>::min();
 }

@@ -96,10 +96,10 @@ Labels labels_of(const ErrorLinesSpec& spec) {
 }
 
 /// "3 intervals end above the frame."
-void note_count(long long count, std::string_view what, std::string_view verb,
+void note_count(long long count, std::string_view what, std::string_view predicate,
                 std::string_view side, Figure& figure) {
   if (count > 0)
-    figure.notes.push_back({fmt::format("{} {}{} {} the frame.", counted(count, what), verb,
+    figure.notes.push_back({fmt::format("{} {}{} {} the frame.", counted(count, what), predicate,
                                         count == 1 ? "s" : "", side),
                             ThemeColour::kMuted});
 }
