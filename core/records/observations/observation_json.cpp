@@ -13,8 +13,7 @@ namespace mapproof {
 
 ObservationSource parse_observations(std::string_view text, const std::string& source,
                                      std::optional<Sensor> kind) {
-  const JsonDocument document = parse_json(text, source);
-  auto file = from_json_value<ObservationsFile>(document.cursor());
+  auto file = from_json_text<ObservationsFile>(text, source);
   const Sensor sensor = file.history.sensor;
   Eigen::MatrixXd& values = file.history.values;
   if (kind && *kind != sensor)
@@ -28,6 +27,7 @@ ObservationSource parse_observations(std::string_view text, const std::string& s
                            .remarks = {},
                            .locations = {},
                            .path = source};
+  result.locations.reserve(result.history.names.size());
   for (Eigen::Index i = 0; i < result.history.landmarks(); ++i) {
     for (Eigen::Index j = 0; j < result.history.steps(); ++j)
       if (const auto problem = observation_problem(sensor, result.history.values(i, j));
