@@ -57,8 +57,7 @@ const std::map<StatusReason, std::string (*)(const Reason&)> kSentences = {
     {StatusReason::kSameObservations,
      [](const Reason&) -> std::string {
        return "The distances between the observations of all landmarks are 0: the map is a point. "
-              "The "
-              "observations are equal, or differ by less than double precision can square.";
+              "The observations are equal, or differ by less than double precision can square.";
      }},
     {StatusReason::kGroupsNeverTogether,
      [](const Reason& of) -> std::string {

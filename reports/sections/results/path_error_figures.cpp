@@ -9,6 +9,7 @@
 
 #include "core/base/text/slug.hpp"
 #include "render/figures/maps/path_errors.hpp"
+#include "reports/sections/results/results_conventions.hpp"
 #include "reports/sections/results/results_view.hpp"
 
 namespace mapproof {
@@ -37,9 +38,6 @@ PathErrorsSpec spec_of(const ResultsStudy& study, std::vector<const PathErrors*>
 
 }  // namespace
 
-/// Of an id that more is put behind, "-distribution" at most.
-constexpr std::size_t kLongestOfRun = kLongestId - 20;
-
 std::string path_error_prefix(const ResultsStudy& study) { return study.name + "-errors-"; }
 
 std::vector<FigureGroup> path_error_figures(const ResultsStudy& study,
@@ -49,7 +47,7 @@ std::vector<FigureGroup> path_error_figures(const ResultsStudy& study,
   std::vector<FigureGroup> groups;
   std::set<std::string> ids;
   for (auto& [run, of_run] : runs) {
-    const std::string first = bounded_id(path_error_prefix(study) + slug_of(run), kLongestOfRun);
+    const std::string first = bounded_id(path_error_prefix(study) + slug_of(run), kLongestBlockId);
     std::string id = first;
     for (int i = 2; !ids.insert(id).second; ++i) id = fmt::format("{}-{}", first, i);
     const std::string title = runs.size() == 1 ? "Errors of poses" : "Errors of poses, " + run;

@@ -19,6 +19,7 @@
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/curves/method_series.hpp"
+#include "reports/sections/results/results_conventions.hpp"
 #include "reports/sections/tables/cells.hpp"
 
 namespace mapproof {
@@ -203,7 +204,7 @@ void ResultsView::add_setup(const Label& setup) {
         block.id += "-without-" + slug_of(factor);
       }
     if (block.id.back() == '-') block.id += "setup";
-    block.id = bounded_id(std::move(block.id), 80);
+    block.id = bounded_id(std::move(block.id), kLongestBlockId);
   }
   for (auto& [others, block] : blocks) blocks_.push_back(std::move(block));
 }
@@ -231,8 +232,8 @@ void ResultsView::make_overviews() {
     const std::string& setup = overview.blocks.front()->conditions.front().setup;
     const std::string& label = labels.at(setup);
     overview.title = (label.empty() ? study_.title : label) + ": overview by " + overview.factors;
-    overview.id =
-        bounded_id(study_.name + "-overview-" + slug_of(setup.empty() ? "all" : setup), 80);
+    overview.id = bounded_id(study_.name + "-overview-" + slug_of(setup.empty() ? "all" : setup),
+                             kLongestBlockId);
     while (!ids.insert(overview.id).second) overview.id += "-more";
   }
 }
