@@ -33,9 +33,6 @@ namespace {
 /// More would hide each other; the table has all.
 constexpr std::size_t kMostLines = 12;
 
-/// Of a section of a report.
-constexpr std::size_t kLongestId = 100;
-
 constexpr const char* kFound = "a finding";
 
 /// A part of an id.

@@ -8,6 +8,7 @@
 
 #include "core/base/text/error_text.hpp"
 #include "core/base/text/number_text.hpp"
+#include "core/base/text/slug.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/diagrams/value_dots.hpp"
 #include "render/figures/unit_scale.hpp"

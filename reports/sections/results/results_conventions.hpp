@@ -5,16 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "core/base/text/slug.hpp"
 #include "reports/sections/results/results_view.hpp"
 
 namespace mapproof {
 
 /// More panels than these are too narrow to be read.
 inline constexpr std::size_t kMostPanels = 4;
-
-/// The most characters of the id of a block, which leave room for what id_below() puts behind it.
-inline constexpr std::size_t kLongestBlockId = kLongestId - 20;
 
 /// "study-setup-mpe-m": the id of a figure or table in a block, at most kLongestId long.
 std::string id_below(const std::string& block, std::string what);

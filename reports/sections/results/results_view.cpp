@@ -15,11 +15,9 @@
 #include "core/base/text/ascii.hpp"
 #include "core/base/text/error_text.hpp"
 #include "core/base/text/number_text.hpp"
-#include "core/base/text/slug.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/curves/method_series.hpp"
-#include "reports/sections/results/results_conventions.hpp"
 #include "reports/sections/tables/cells.hpp"
 
 namespace mapproof {

@@ -9,12 +9,16 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/text/slug.hpp"
 #include "core/results/results_study.hpp"
 #include "core/results/values_by_run.hpp"
 #include "core/statistics/intervals.hpp"
 #include "reports/sections/method_summary.hpp"
 
 namespace mapproof {
+
+/// The most characters of the id of a block, which leave room for what id_below() puts behind it.
+inline constexpr std::size_t kLongestBlockId = kLongestId - 20;
 
 /// A setup at one level of every factor but one: what has figures and tables of its own.
 struct ResultsBlock {
