@@ -16,6 +16,7 @@
 #include "core/base/text/spelling.hpp"
 #include "core/base/text/words.hpp"
 #include "core/records/studies/folder_lock.hpp"
+#include "render/cairo/cairo_backend.hpp"
 #include "render/output/write_scene.hpp"
 #include "render/plot/layout.hpp"
 #include "render/style/edits.hpp"
@@ -264,6 +265,14 @@ void edit(const StyleArguments& arguments, const FigureStyle& style, Drawables& 
     for (Scene& frame : film.frames) frame.title = *arguments.title;
 }
 
+/// Refuses images that would be too large before any file is written.
+void require_sizes(const Drawables& drawables, const Formats& formats, const Theme& theme) {
+  if (formats.files.contains(FileFormat::kPng))
+    for (const Figure& figure : drawables.figures) require_image_size(lay_out(figure, theme));
+  for (const Scene& scene : drawables.scenes) require_scene_size(scene, theme);
+  for (const Film& film : drawables.films) require_film_size(film, theme);
+}
+
 Drawables read_all(const RenderArguments& arguments) {
   if (arguments.input.empty() && arguments.panels.empty())
     throw InvalidInput("name what to draw: a folder, ID.figure.json or ID.scene.json");
@@ -412,6 +421,8 @@ int render(const RenderArguments& arguments, const Invocation& invocation) {
   Drawables drawables = read_all(arguments);
   refuse_idle_options(arguments.style, formats, drawables);
   edit(arguments.style, style, drawables);
+  if (arguments.style.changes_figures() || !arguments.panels.empty())
+    require_sizes(drawables, formats, theme);
   // Commands that make the map or the study again hold the lock of its folder.
   const LockedFolder out(arguments.out.empty() ? drawables.root : fs::path(arguments.out));
   const fs::path inner = inner_folder(arguments, style);

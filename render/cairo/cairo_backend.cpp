@@ -82,19 +82,29 @@ void draw_page(const Drawing& drawing, cairo_surface_t* surface,
   check(cairo_surface_status(surface));
 }
 
+int pixels_along(double length_pt, double dpi) {
+  constexpr double kMost = 1e6, kPointsPerInch = 72.0;
+  return static_cast<int>(std::lround(std::min(length_pt * dpi / kPointsPerInch, kMost)));
+}
+
 }  // namespace
 
-Image to_image(const Drawing& drawing) {
-  const double scale = drawing.dpi / 72.0;
-  Image image;
-  image.width = static_cast<int>(std::lround(std::min(drawing.width * scale, 1e6)));
-  image.height = static_cast<int>(std::lround(std::min(drawing.height * scale, 1e6)));
+void require_image_size(const Drawing& drawing) {
   constexpr int kLargestSide = 20'000;
-  if (std::min(image.width, image.height) < 1 || std::max(image.width, image.height) > kLargestSide)
+  const int width = pixels_along(drawing.width, drawing.dpi),
+            height = pixels_along(drawing.height, drawing.dpi);
+  if (std::min(width, height) < 1 || std::max(width, height) > kLargestSide)
     throw InvalidInput(
         fmt::format("figure {}: an image has 1 to {} pixels along a side, not {} x {} (--width, "
                     "--height, --dpi)",
-                    drawing.id, kLargestSide, image.width, image.height));
+                    drawing.id, kLargestSide, width, height));
+}
+
+Image to_image(const Drawing& drawing) {
+  require_image_size(drawing);
+  Image image;
+  image.width = pixels_along(drawing.width, drawing.dpi);
+  image.height = pixels_along(drawing.height, drawing.dpi);
   const Colour paper = drawing.background;
   const std::size_t pixels = static_cast<std::size_t>(image.width) * image.height;
   image.pixels.reserve(pixels);

@@ -9,8 +9,12 @@
 
 namespace mapproof {
 
+/// @throws InvalidInput, with the drawing's id, if a side of its image would have no pixel or more
+///         than 20,000.
+void require_image_size(const Drawing& drawing);
+
 /// The drawing as pixels, at its own dpi. Safe from any thread, the same pixels each time.
-/// @throws InvalidInput if that would be more than 20000 pixels wide or high.
+/// @throws InvalidInput as require_image_size().
 Image to_image(const Drawing& drawing);
 
 /// What a PNG file holds about the drawing, as keywords and text.

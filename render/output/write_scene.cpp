@@ -44,10 +44,19 @@ Image halved(const Image& image) {
 
 constexpr int kSamples = 4;
 
+struct PixelSize {
+  int width = 0, height = 0;
+};
+
 /// The place moved to whole pixels, so that none is drawn twice.
 Box on_pixels(const Box& position, double per_point) {
   const auto whole = [per_point](double at) { return std::round(at * per_point) / per_point; };
   return {whole(position.x0), whole(position.y0), whole(position.x1), whole(position.y1)};
+}
+
+PixelSize pixels_of(const Box& box, double per_point) {
+  return {static_cast<int>(std::lround(box.width() * per_point)),
+          static_cast<int>(std::lround(box.height() * per_point))};
 }
 
 bool shows_pixels(FileFormat format) {
@@ -92,6 +101,24 @@ void write_animation(const Film& film, const Theme& theme, const OutputFolder& f
   }
 }
 
+void require_scene_size(const Scene& scene, const Theme& theme) {
+  const double per_point = theme.dpi / 72.0;
+  for (const Item& item : lay_out(scene_figure(scene, theme), theme).items)
+    if (const auto* raster = std::get_if<Raster>(&item.what)) {
+      const auto [width, height] = pixels_of(on_pixels(raster->position, per_point), per_point);
+      SceneClient::require_size(scene, width, height);
+    }
+}
+
+void require_film_size(const Film& film, const Theme& theme) {
+  const Scene& first = film.frames.front();
+  require_scene_size(first, theme);
+  const Drawing drawing = lay_out(scene_figure(first, theme), theme);
+  const auto [width, height] =
+      pixels_of({0.0, 0.0, drawing.width, drawing.height}, theme.dpi / 72.0);
+  require_animation_size(width, height, film.frames.size());
+}
+
 SceneDrawing draw_scene(const Scene& scene, const Theme& theme, SceneClient& client,
                         const Theme* dark) {
   SceneDrawing drawn;
@@ -105,8 +132,7 @@ SceneDrawing draw_scene(const Scene& scene, const Theme& theme, SceneClient& cli
     if (screen == nullptr) continue;
     auto* poster = std::get_if<Raster>(&drawn.poster.items[i].what);
     screen->position = poster->position = on_pixels(screen->position, per_point);
-    const auto width = static_cast<int>(std::lround(screen->position.width() * per_point));
-    const auto height = static_cast<int>(std::lround(screen->position.height() * per_point));
+    const auto [width, height] = pixels_of(screen->position, per_point);
     auto fine = std::make_shared<Image>(client.draw(
         scene, scene_request(screen->source, scale * width, scale * height, kSamples, theme)));
     screen->image = scale == 1 ? fine : std::make_shared<Image>(halved(*fine));

@@ -39,6 +39,15 @@ struct SceneDrawing {
   std::optional<Drawing> page = {};  ///< The screen's with dark images, if they were asked for.
 };
 
+/// Checks the sizes of a scene's images before anything is drawn.
+/// @throws InvalidInput if a side of one would have no pixel or more than
+///         SceneClient::kLargestSide.
+void require_scene_size(const Scene& scene, const Theme& theme);
+
+/// Checks a film's first frame, and how many there are.
+/// @throws InvalidInput as require_scene_size() and require_animation_size().
+void require_film_size(const Film& film, const Theme& theme);
+
 /// @param dark  In whose colours the images of the screen are drawn once more, from the same light;
 ///              null: in none.
 /// @throws InvalidInput if the scene cannot be drawn (see `problem`); SceneError.

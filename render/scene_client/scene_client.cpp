@@ -122,16 +122,19 @@ std::string SceneClient::read_line() {
   return line;
 }
 
+void SceneClient::require_size(const Scene& scene, int width, int height) {
+  if (std::min(width, height) < 1 || std::max(width, height) > kLargestSide)
+    throw InvalidInput(
+        fmt::format("scene {}: an image has 1 to {} pixels along a side, not {} x {} (--width, "
+                    "--height, --dpi)",
+                    scene.id, kLargestSide, width, height));
+}
+
 Image SceneClient::draw(const Scene& scene, const SceneRequest& request) {
   require_valid(scene);
   if (request.view >= scene.views.size())
     throw InvalidInput(fmt::format("scene {}: there is no view {}", scene.id, request.view));
-  if (std::min(request.width, request.height) < 1 ||
-      std::max(request.width, request.height) > kLargestSide)
-    throw InvalidInput(
-        fmt::format("scene {}: an image has 1 to {} pixels along a side, not {} x {} (--width, "
-                    "--height, --dpi)",
-                    scene.id, kLargestSide, request.width, request.height));
+  require_size(scene, request.width, request.height);
   if (request.samples < 0 || request.samples > kMostSamples)
     throw InvalidInput(fmt::format("scene {}: {} samples per pixel", scene.id, request.samples));
   const std::lock_guard lock(mutex_);

@@ -41,6 +41,9 @@ class SceneClient {
   SceneClient(const SceneClient&) = delete;
   SceneClient& operator=(const SceneClient&) = delete;
 
+  /// @throws InvalidInput if a side of an image is not in 1 to kLargestSide.
+  static void require_size(const Scene& scene, int width, int height);
+
   /// One view; the same pixels each time.
   /// @param request  Sides in 1 to kLargestSide; samples in 0 to kMostSamples, fewer where the
   /// image

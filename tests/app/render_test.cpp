@@ -169,6 +169,17 @@ TEST_F(RenderOfAMap, RefusesInOneLineWhatWouldChangeNothingOrIsNotThere) {
   }
 }
 
+TEST_F(RenderOfAMap, WritesNothingWhereAnImageWouldBeTooLarge) {
+  const std::string out = folder_ / "large";
+  const Outcome outcome =
+      render({map_, "--width", "20", "--dpi", "1200", "--as", "svg,png,json", "--out", out});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.error.find("an image has 1 to 20000 pixels along a side, not 24000 x "),
+            std::string::npos)
+      << outcome.error;
+  EXPECT_FALSE(fs::exists(out));
+}
+
 TEST_F(RenderOfAMap, ListsWhatCanBeDrawn) {
   const Outcome outcome = render({map_, "--list"});
   EXPECT_EQ(outcome.exit_code, 0);
