@@ -391,6 +391,21 @@ TEST(BestLine, OfSeveralPanelsIsBestAtMostPoints) {
             "A has the lowest MPE at all points");
 }
 
+TEST(BestLine, OfSeveralPanelsCountsThePointsWhereItLeadsWithinTheIntervals) {
+  const ErrorLine a = three_points("A", {1, 2, 3}, 0.1);
+  const ErrorLine near_once = three_points("B", {1.15, 3, 4}, 0.1);
+  EXPECT_EQ(best_of_points({{a, near_once}, {a, near_once}}, {}),
+            "A has the lowest MPE at all 6 points; intervals overlap at 2");
+  const ErrorLine beats_once = three_points("B", {1.15, 1, 4}, 0.1),
+                  far = three_points("B", {4, 4, 4}, 0.1);
+  EXPECT_EQ(best_of_points({{a, beats_once}, {a, far}}, {}),
+            "A has the lowest MPE at 5 of 6 points; intervals overlap at 1");
+  const ErrorLine alike_once = three_points("B", {1, 3, 4}, 0.1);
+  EXPECT_EQ(best_of_points({{a, alike_once}}, {}), "A has the lowest MPE at 2 of 3 points");
+  const ErrorLine near_twice = three_points("B", {1.15, 2.15, 4}, 0.1);
+  EXPECT_EQ(best_of_points({{a, near_twice}}, {}), "");
+}
+
 TEST(ScaledUnit, HasNeitherPowersNorManyZeros) {
   const auto words = [](const char* unit, double greatest) {
     const ScaledUnit scaled = scaled_unit(unit, greatest);

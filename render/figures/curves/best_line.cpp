@@ -103,12 +103,17 @@ std::string listed_names(const std::vector<At>& some, const std::vector<ErrorLin
   return listed(names, kMostNamed);
 }
 
+/// Whether two values have the same digits shown.
+bool are_shown_alike(const At& a, const At& b, const LineQuantity& quantity) {
+  if (a.mean() == b.mean()) return true;
+  const std::vector<std::string> texts = value_texts({a.mean(), b.mean()}, quantity);
+  return texts[0] == texts[1];
+}
+
 /// Whether no reader should rank two values: their intervals overlap, or the digits shown are
 /// equal.
 bool tie(const At& a, const At& b, const LineQuantity& quantity) {
-  if (a.mean() == b.mean() || overlap(a, b)) return true;
-  const std::vector<std::string> texts = value_texts({a.mean(), b.mean()}, quantity);
-  return texts[0] == texts[1];
+  return overlap(a, b) || are_shown_alike(a, b, quantity);
 }
 
 /// Those that tie with the best, the best first, and the others, ascending from the best on.
@@ -400,7 +405,8 @@ std::string best_of_all(const std::vector<ErrorLine>& lines, const LineQuantity&
 
 std::string best_of_points(const std::vector<std::vector<ErrorLine>>& panels,
                            const LineQuantity& quantity) {
-  std::map<std::string, int> wins;
+  std::map<std::string, int> wins;   // Beyond the intervals.
+  std::map<std::string, int> leads;  // By the digits shown.
   std::vector<ErrorLine> all;
   int points = 0;
   double value = 0.0;
@@ -410,9 +416,13 @@ std::string best_of_points(const std::vector<std::vector<ErrorLine>>& panels,
     for (const double x : xs_of(lines)) {
       ++points;
       const std::vector<At> best = best_at(lines, x, quantity);
+      const At& first = best.front();
+      if (std::none_of(best.begin() + 1, best.end(),
+                       [&](const At& other) { return are_shown_alike(other, first, quantity); }))
+        ++leads[first.line->label];
       if (best.size() > 1) continue;
-      ++wins[best.front().line->label];
-      value = best.front().mean();
+      ++wins[first.line->label];
+      value = first.mean();
     }
   }
   if (wins.empty()) return "";
@@ -425,7 +435,11 @@ std::string best_of_points(const std::vector<std::vector<ErrorLine>>& panels,
       fmt::format("{} {}", line_name(line, all), has_the_best(quantity, is_plural(line, quantity)));
   if (points == 1) return fmt::format("{}, {}", best, value_text(value, quantity));
   if (most->second == points) return best + " at all points";
-  return fmt::format("{} at {} of {} points", best, most->second, points);
+  const int led = leads.at(most->first), overlapping = led - most->second;
+  const std::string where = led == points ? fmt::format("all {} points", points)
+                                          : fmt::format("{} of {} points", led, points);
+  return fmt::format("{} at {}{}", best, where,
+                     overlapping > 0 ? fmt::format("; intervals overlap at {}", overlapping) : "");
 }
 
 }  // namespace mapproof

@@ -371,8 +371,8 @@ void add_aim(Panel& panel, double aim, const std::vector<ErrorLine>& lines) {
   limits = {std::min(limits.low, aim - margin), std::max(limits.high, aim + margin)};
 }
 
-/// Which method is best at most of the points of several panels: "ISOMAP has the lowest MPE at 7 of
-/// 9 points". Empty of too few runs, and of a quantity that has no better side.
+/// Which method is best at most of the points of several panels, see best_of_points(). Empty of too
+/// few runs, and of a quantity that has no better side.
 /// @param joined  Labels of lines that are several.
 std::string most_often_best(const ResultsView& view,
                             const std::vector<std::vector<ErrorLine>>& panels,
@@ -395,7 +395,7 @@ std::string course_over(const ResultsView& view, const std::vector<std::vector<E
   return course_of(all, quantity, quantity.unit, view.has_great_errors(quantity), x_label,
                    !has_rivals              ? ""
                    : has_too_few_runs(view) ? kTooFewRuns
-                                            : "no method is best at most points, ");
+                                            : "no method is clearly the best at most points, ");
 }
 
 }  // namespace
