@@ -264,7 +264,7 @@ TEST(ResultsFigures, OfAnOverviewHaveTheLabelOfEqualAxesOnce) {
 TEST(ResultsTables, HaveOnePrecisionForAQuantity) {
   const ResultsStudy study = study_of_setups({"indoors", "outdoors"});
   const ResultsView view(study);
-  EXPECT_EQ(view.decimals(mpe()), 4) << "those of one digit of 0.0002, the least";
+  EXPECT_EQ(view.decimals(mpe()), 5) << "those of two digits of 0.0002, the least and best";
   std::vector<Table> tables;
   for (const ResultsBlock& block : view.blocks())
     for (Table& table : results_tables(view, block)) tables.push_back(std::move(table));
@@ -276,6 +276,16 @@ TEST(ResultsTables, HaveOnePrecisionForAQuantity) {
       if (const auto* number = std::get_if<NumberCell>(&cell)) {
         EXPECT_EQ(number->decimals, view.decimals(mpe())) << table.id;
       }
+}
+
+TEST(ResultsTables, HaveTwoDigitsOfTheLeastMeanWhereItIsTheBest) {
+  const auto decimals = [](const char* quantity) {
+    const ResultsStudy study =
+        Rows(quantity).add("best", "a1", 0.3).add("m", "a1", 30.0).add("n", "a1", 153.2).study();
+    return ResultsView(study).decimals(known_quantity(quantity));
+  };
+  EXPECT_EQ(decimals("mpe_m"), 2);
+  EXPECT_EQ(decimals("fit_held_out_nats"), 1) << "the least is the worst";
 }
 
 TEST(ResultsTables, HaveTwoDecimalsOfMoeAtMost) {

@@ -278,8 +278,9 @@ std::optional<ResultsOverview> ResultsView::overview_of(
 
 namespace {
 
-/// Those that give the median three significant digits, and the least one at least one.
-int decimals_of_means(std::vector<double> means) {
+/// Those that give the median three significant digits and the least at least one, but two where
+/// the least is the best: with one, nobody sees how far the best methods are apart.
+int decimals_of_means(std::vector<double> means, Better better) {
   constexpr int kMost = 6;
   std::erase_if(means, [](double mean) { return is_lost(mean) || mean == 0.0; });
   for (double& mean : means) mean = std::abs(mean);
@@ -287,8 +288,10 @@ int decimals_of_means(std::vector<double> means) {
   const auto decimals = [](double size, int digits) {
     return digits - 1 - static_cast<int>(std::floor(std::log10(size)));
   };
-  return std::clamp(std::max(decimals(median(means), 3), decimals(std::ranges::min(means), 1)), 0,
-                    kMost);
+  const int digits_of_least = better == Better::kLower ? 2 : 1;
+  return std::clamp(
+      std::max(decimals(median(means), 3), decimals(std::ranges::min(means), digits_of_least)), 0,
+      kMost);
 }
 
 }  // namespace
@@ -303,7 +306,7 @@ void ResultsView::set_decimals() {
     // Pages show no digits of those that diverged.
     if (has_great_errors(quantity))
       std::erase_if(means, [](double mean) { return mean > kGreatestError_m; });
-    const int decimals = decimals_of_means(std::move(means));
+    const int decimals = decimals_of_means(std::move(means), quantity.better);
     decimals_[id] = id.starts_with("moe_") ? std::min(decimals, kMoeDecimals) : decimals;
   }
 }
