@@ -19,15 +19,9 @@ int decimals_for(double step) {
 /// Whether the numbers of a decade are written as such: "10⁵" is shorter than "100000".
 bool is_plain(int exponent) { return exponent >= -4 && exponent <= 4; }
 
-/// A number of an axis whose numbers reach `greatest`.
-std::string plain_label(double value, int decimals, double greatest) {
-  return decimals == 0 ? count_text(std::llround(value), std::llround(greatest))
-                       : number_text(value, decimals);
-}
-
 std::string log_label(int factor, int exponent, bool plain, double greatest) {
   if (plain)
-    return plain_label(factor * std::pow(10.0, exponent), std::max(0, -exponent), greatest);
+    return number_text(factor * std::pow(10.0, exponent), std::max(0, -exponent), greatest);
   return factor == 1 ? ten_to_the(exponent) : std::to_string(factor) + power_of_ten(exponent);
 }
 
@@ -128,7 +122,7 @@ Ticks linear_ticks(double low, double high, double step) {
     ticks.offset = offset;
     const int decimals = decimals_for(std::pow(10.0, std::floor(std::log10(high - low)) + 1.0));
     const double size = std::abs(offset);
-    ticks.factor = (offset < 0.0 ? "\u2212 " : "+ ") + plain_label(size, decimals, size);
+    ticks.factor = (offset < 0.0 ? "\u2212 " : "+ ") + number_text(size, decimals, size);
     return ticks;
   }
   const double largest = std::max(std::abs(low), std::abs(high));
@@ -143,7 +137,7 @@ Ticks linear_ticks(double low, double high, double step) {
   const double last = std::floor(high / step + 1e-9);
   for (double i = first; i <= last && ticks.at.size() < 100; i += 1.0) {
     ticks.at.push_back(i * step);
-    ticks.labels.push_back(plain_label(i * step / unit, decimals, largest / unit));
+    ticks.labels.push_back(number_text(i * step / unit, decimals, largest / unit));
   }
   return ticks;
 }

@@ -103,6 +103,15 @@ TEST(NumberText, HasNoMinusZero) {
   EXPECT_EQ(number_text(-0.2, 1), "−0.2");
 }
 
+TEST(NumberText, HasItsThousandsApartBesideNumbersOfFiveDigits) {
+  EXPECT_EQ(number_text(1204.0, 0, 9999.0), "1204");
+  EXPECT_EQ(number_text(1204.0, 0, 9999.6), "1,204");  // It is shown as 10,000.
+  EXPECT_EQ(number_text(12345.24, 1, 12345.24), "12,345.2");
+  EXPECT_EQ(number_text(-123456.0, 0, -123456.0), "−123,456");
+  EXPECT_EQ(number_text(-0.2, 0, 12345.0), "0");
+  EXPECT_EQ(number_text(1e18, 0, 1e18), "1,000,000,000,000,000,000");
+}
+
 TEST(NumberText, HasThreeSignificantDigitsWithTheirZeros) {
   EXPECT_EQ(significant(0.2194), "0.219");
   EXPECT_EQ(significant(0.012), "0.0120");

@@ -504,6 +504,20 @@ TEST(HeatMapFigure, WritesSignificantDigitsOfSmallValues) {
   EXPECT_EQ(texts(spec), (std::vector<std::string>{"0.000", "0.500", "0.250", "≈ 0"}));
 }
 
+TEST(HeatMapFigure, HasTheThousandsOfItsNumbersApart) {
+  HeatMapSpec spec = sample_heat(2, 1);
+  spec.unit = "";
+  spec.decimals = 0;
+  const auto texts = [&] { return layers_of<Cells>(heat_map_figure(spec).panels[0]).at(0).text; };
+  for (const double least : {204.0, 6204.0}) {  // Logarithmic and linear colours.
+    spec.values = {least, 12345.0};
+    EXPECT_EQ(texts().back(), "12,345");
+  }
+  EXPECT_EQ(texts().front(), "6,204");
+  spec.values = {6204.0, 9345.0};
+  EXPECT_EQ(texts(), (std::vector<std::string>{"6204", "9345"}));
+}
+
 TEST(HeatMapFigure, HasABarOfTheHeightOfItsFrameRightOfIt) {
   const Drawing drawing = lay_out(heat_map_figure(sample_heat(5, 4)), report_theme());
   const Box& frame = drawing.frames.at(0);

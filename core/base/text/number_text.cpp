@@ -20,6 +20,17 @@ int rounded_exponent(double value, int digits) {
   return std::stoi(text.substr(text.find('e') + 1));
 }
 
+/// Where the digits before the point end; without a sign, how many they are.
+std::size_t end_of_whole(const std::string& text) { return std::min(text.find('.'), text.size()); }
+
+/// "−25700.5" becomes "−25,700.5".
+void set_thousands_apart(std::string& text) {
+  constexpr std::size_t kGroup = 3;
+  const std::size_t first = text.find_first_of("0123456789");
+  for (std::size_t at = end_of_whole(text); at > first && at - first > kGroup;)
+    text.insert(at -= kGroup, 1, ',');
+}
+
 }  // namespace
 
 std::string ten_to_the(int exponent) { return "10" + raised(exponent); }
@@ -30,11 +41,9 @@ std::string count_text(long long count) { return count_text(count, count); }
 
 std::string count_text(long long count, long long greatest) {
   constexpr long long kLeastGrouped = 10'000;
-  constexpr std::size_t kGroup = 3;
   const std::string sign = count < 0 ? "−" : "";
   std::string text = std::to_string(count).substr(count < 0 ? 1 : 0);
-  if (std::abs(greatest) >= kLeastGrouped)
-    for (std::size_t at = text.size(); at > kGroup;) text.insert(at -= kGroup, 1, ',');
+  if (std::abs(greatest) >= kLeastGrouped) set_thousands_apart(text);
   return sign + text;
 }
 
@@ -61,6 +70,14 @@ std::string number_text(double value, int decimals) {
   return "−" + text;
 }
 
+std::string number_text(double value, int decimals, double greatest) {
+  constexpr std::size_t kLeastGrouped = 5;  // Digits, as of count_text().
+  std::string text = number_text(value, decimals);
+  if (end_of_whole(number_text(std::abs(greatest), decimals)) >= kLeastGrouped)
+    set_thousands_apart(text);
+  return text;
+}
+
 std::string significant(double value, int digits) {
   if (!std::isfinite(value)) return "unknown";
   if (value == 0.0) return "0";
@@ -71,9 +88,9 @@ std::string significant(double value, int digits) {
   return decimals == 0 ? count_text(std::llround(value)) : number_text(value, decimals);
 }
 
-std::string rounded_text(double value, int decimals, int digits) {
+std::string rounded_text(double value, int decimals, double greatest, int digits) {
   constexpr int kMostDecimals = 6;
-  std::string text = number_text(value, decimals);
+  std::string text = number_text(value, decimals, greatest);
   if (value == 0.0 || text.find_first_of("123456789") != std::string::npos) return text;
   return decimals >= kMostDecimals ? significant(value, digits) : "≈ 0";
 }

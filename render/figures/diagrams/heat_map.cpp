@@ -31,7 +31,7 @@ bool is_great(const HeatMapSpec& spec, double value) {
 
 std::string with_unit_of(const HeatMapSpec& spec, double value) {
   if (is_great(spec, value)) return kGreatErrorText;
-  return with_plain_spaces(with_unit(rounded_text(value, spec.decimals), spec.unit));
+  return with_plain_spaces(with_unit(rounded_text(value, spec.decimals, value), spec.unit));
 }
 
 std::string place_of(const HeatMapSpec& spec, std::size_t cell) {
@@ -70,12 +70,22 @@ Range span_of(const HeatMapSpec& spec) {
   return {range.low - around, range.high + around};
 }
 
-std::string cell_text(const HeatMapSpec& spec, double value, Scale scale) {
+/// The greatest size of a number in the cells.
+double greatest_size(const HeatMapSpec& spec) {
+  double greatest = 0.0;
+  for (const double value : spec.values)
+    if (std::isfinite(value) && !is_great(spec, value))
+      greatest = std::max(greatest, std::abs(value));
+  return greatest;
+}
+
+/// @param greatest  See greatest_size().
+std::string cell_text(const HeatMapSpec& spec, double value, Scale scale, double greatest) {
   constexpr int kDigits = 3;
   if (is_great(spec, value)) return kGreatCellText;
-  if (scale == Scale::kLinear) return rounded_text(value, spec.decimals, kCellDigits);
+  if (scale == Scale::kLinear) return rounded_text(value, spec.decimals, greatest, kCellDigits);
   const int before = static_cast<int>(std::floor(std::log10(value))) + 1;
-  return rounded_text(value, std::clamp(kDigits - before, 0, spec.decimals), kCellDigits);
+  return rounded_text(value, std::clamp(kDigits - before, 0, spec.decimals), greatest, kCellDigits);
 }
 
 Cells cells_of(const HeatMapSpec& spec) {
@@ -91,12 +101,14 @@ Cells cells_of(const HeatMapSpec& spec) {
     cells.colour_scale.scale = Scale::kLog;
   cells.colour_scale.bar_label =
       spec.unit.empty() ? spec.quantity : spec.quantity + " [" + spec.unit + "]";
+  const double greatest = greatest_size(spec);
   for (std::size_t row = rows; row-- > 0;)  // The uppermost first.
     for (std::size_t column = 0; column < columns; ++column) {
       const double value = spec.values[row * columns + column];
       const bool is_there = std::isfinite(value);
       cells.values.push_back(is_there ? value : kNaN);
-      cells.text.push_back(is_there ? cell_text(spec, value, cells.colour_scale.scale) : "");
+      cells.text.push_back(is_there ? cell_text(spec, value, cells.colour_scale.scale, greatest)
+                                    : "");
     }
   return cells;
 }
