@@ -469,6 +469,41 @@ TEST(HeatMapFigure, SaysWhichMapsDivergedAndLeavesTheirErrorsOutOfTheColours) {
   EXPECT_EQ(heat_map_finding(spec, "MPE"), "MPE over 1\u00A0km everywhere");
 }
 
+TEST(HeatMapFinding, NamesTheFactorThatChangesTheValuesTwiceAsMuch) {
+  HeatMapSpec spec = sample_heat(3, 3);
+  const auto finding = [&](std::vector<double> values) {
+    spec.values = std::move(values);
+    return heat_map_finding(spec, "MPE");
+  };
+  EXPECT_EQ(finding({1.0, 1.1, 1.2, 2.0, 2.1, 2.2, 3.0, 3.1, 3.2}),
+            "MPE depends more on side of the room than on landmarks, between 1.00\u00A0m and "
+            "3.20\u00A0m");
+  EXPECT_EQ(finding({1.0, 2.0, 3.0, 1.1, 2.1, 3.1, 1.2, 2.2, 3.2}),
+            "MPE depends more on landmarks than on side of the room, between 1.00\u00A0m and "
+            "3.20\u00A0m");
+  // Ten times along the one and three times along the other, which logarithmic colours show.
+  const std::vector<double> wide = {0.01, 0.03, 0.09, 0.1, 0.3, 0.9, 1.0, 3.0, 9.0};
+  EXPECT_TRUE(contains(finding(wide), "depends more on side of the room")) << finding(wide);
+  spec.unit = "%";
+  EXPECT_TRUE(contains(finding(wide), "lowest MPE")) << finding(wide);
+}
+
+TEST(HeatMapFinding, SaysWhereTheValuesAreLeastAndGreatestWhereNoFactorIsClear) {
+  HeatMapSpec spec = sample_heat(3, 3);
+  const auto says_where = [&] {
+    return heat_map_finding(spec, "MPE").starts_with("lowest MPE 1.00\u00A0m at 20 and 1.5\u00A0m");
+  };
+  spec.values = {1.0, 2.0, 3.0, 2.0, 3.0, 4.0, 3.0, 4.0, 5.0};
+  EXPECT_TRUE(says_where()) << heat_map_finding(spec, "MPE");
+  spec.values = {1.0, 1.1, 1.2, 2.0, NAN, 2.2, 3.0, 3.1, 3.2};
+  EXPECT_TRUE(says_where()) << "a value is missing";
+  spec.values.assign(9, 1.0);
+  EXPECT_TRUE(says_where()) << "all are equal";
+  spec = sample_heat(3, 2);
+  spec.values = {1.0, 1.1, 1.2, 2.0, 2.1, 2.2};
+  EXPECT_TRUE(says_where()) << "of two levels";
+}
+
 TEST(HeatMapFigure, RefusesWhatIsNoMatrix) {
   HeatMapSpec spec = sample_heat(3, 2);
   spec.values.pop_back();
