@@ -102,8 +102,10 @@ void add_convergence(const SlamStudy& study, BulletList& findings) {
   findings.items.push_back(
       {{strong("Convergence"),
         phrase(fmt::format(": the error of the observation model changes as the number of "
-                           "measurements to the power {} ({}); theory predicts \u22121/2.{}{}",
-                           text, curve.title, variant_words(study), end_words(curve)))}});
+                           "measurements to the power {} ({}; {}, without an interval); theory "
+                           "predicts \u22121/2.{}{}",
+                           text, curve.title, slope_basis(curve), variant_words(study),
+                           end_words(curve)))}});
 }
 
 void add_remarks_on_paper(BulletList& findings) {
@@ -418,14 +420,17 @@ void add_run_numbers(const SlamStudy& study, Highlights& numbers) {
 }
 
 void add_slope(const SlamStudy& study, Highlights& numbers) {
-  const double slope =
-      study.convergence.empty() ? kNaN : convergence_slope(study.convergence.front());
+  if (study.convergence.empty()) return;
+  const ConvergenceCurve& curve = study.convergence.front();
+  const double slope = convergence_slope(curve);
   if (!std::isfinite(slope)) return;
   constexpr double kTheory = -0.5;
   numbers.items.push_back(
       {fmt::format("power of the measurements: the model error falls {} than in theory",
                    slope < kTheory ? "faster" : "more slowly"),
-       slope_words(slope), "theory: \u22121/2" + brief_variant_words(study), kSlamSimulation});
+       slope_words(slope),
+       fmt::format("theory: \u22121/2; {}{}", slope_basis(curve), brief_variant_words(study)),
+       kSlamSimulation});
 }
 
 /// "the logs of Plaza 1 and Plaza 2 are missing"; empty if none is.

@@ -136,6 +136,12 @@ double convergence_slope(const ConvergenceCurve& curve) {
   return log_log_slope(steps, errors);
 }
 
+std::string slope_basis(const ConvergenceCurve& curve) {
+  const auto means = std::ranges::count_if(
+      curve.points, [](const ConvergencePoint& point) { return point.observation.values > 0; });
+  return fmt::format("a line through {}", counted(means, "mean"));
+}
+
 std::string variant_words(const SlamStudy& study) {
   const ConvergenceCurve* plain_svd = plain_svd_of(study);
   if (plain_svd == nullptr) return "";

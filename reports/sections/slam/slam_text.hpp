@@ -45,6 +45,10 @@ std::optional<double> length_m(const RangeLog& log);
 /// NaN if it has less than two errors.
 double convergence_slope(const ConvergenceCurve& curve);
 
+/// "a line through 3 means": what that power rests on. Its points are means over the same pairs of
+/// world and path, which allow it no interval.
+std::string slope_basis(const ConvergenceCurve& curve);
+
 /// Sentences, each with a blank before it, on what the slope of a paper's convergence rests on: the
 /// exactly known variance of the noise is taken off, the slope of the plain SVD if it was made, and
 /// worlds that were drawn again. Empty for other studies.
