@@ -88,13 +88,15 @@ TopicHeadline choice_headline(const TopicStudy& study) {
   if (!difference) return headline;
   const std::string fixed = error_text(mean_over_all(study, kFixedMethod, "regret_m"));
   if (has_few_layouts(*difference)) {
-    headline.detail += "; a fixed method: " + fixed;
+    headline.detail += fmt::format("; a fixed method: {}; {}", fixed, verdict_words(*difference));
     return headline;
   }
   headline.falls_short = !is_better(*difference);
   headline.verdict =
-      fmt::format("{} than a fixed method, {}",
-                  headline.falls_short ? "not significantly better" : "better", fixed);
+      fmt::format("{} than a fixed method, {} (95 % interval of the difference: {} to {})",
+                  headline.falls_short ? "not significantly better" : "better", fixed,
+                  error_text(difference->mean - *difference->half_width),
+                  error_text(difference->mean + *difference->half_width));
   return headline;
 }
 
