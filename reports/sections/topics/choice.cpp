@@ -62,9 +62,9 @@ std::string choice_sentence(const TopicStudy& study, const char* quantity, const
       "{}, over all sensors and numbers of steps, the criterion with the lowest mean regret is {}: "
       "its pick is {} worse than the best map on average; a fixed method is {} worse and a random "
       "pick {}{}.",
-      when, best.label, error_text(best.regret_m),
-      error_text(mean_over_all(study, kFixedMethod, quantity)),
-      error_text(mean_over_all(study, kRandomPick, quantity)),
+      when, best.label, regret_text(best.regret_m),
+      regret_text(mean_over_all(study, kFixedMethod, quantity)),
+      regret_text(mean_over_all(study, kRandomPick, quantity)),
       has_few_layouts(study) ? fmt::format("; too few runs to rank the criteria, in {}",
                                            counted(layouts_of(study), "layout"))
                              : "");
@@ -86,7 +86,7 @@ TopicHeadline choice_headline(const TopicStudy& study) {
   const auto difference =
       topic_difference(study, all_conditions(study), best.id, kFixedMethod, "regret_m");
   if (!difference) return headline;
-  const std::string fixed = error_text(mean_over_all(study, kFixedMethod, "regret_m"));
+  const std::string fixed = regret_text(mean_over_all(study, kFixedMethod, "regret_m"));
   if (has_few_layouts(*difference)) {
     headline.detail += fmt::format("; a fixed method: {}; {}", fixed, verdict_words(*difference));
     return headline;

@@ -77,8 +77,8 @@ std::string advice_words(const TopicStudy& study) {
       "Choosing the strategy by the pattern of missing data costs {} of MPE over the best "
       "map of each outcome "
       "on average; pairwise-complete distances always cost {}, PPCA always {}.",
-      error_text(regret_m(study, kAdvised)), error_text(regret_m(study, kPairwiseComplete)),
-      error_text(regret_m(study, kPpca)));
+      regret_text(regret_m(study, kAdvised)), regret_text(regret_m(study, kPairwiseComplete)),
+      regret_text(regret_m(study, kPpca)));
 }
 
 std::vector<std::string> missing_conclusions(const TopicStudy& study) {
@@ -106,8 +106,8 @@ TopicHeadline missing_headline(const TopicStudy& study) {
   TopicHeadline headline{
       .value = value,
       .label = fmt::format("{} the best map: the strategy chosen for missing data", words),
-      .detail = fmt::format("always pairwise-complete {}, always PPCA {}", error_text(pairwise),
-                            error_text(ppca))};
+      .detail = fmt::format("always pairwise-complete {}, always PPCA {}", regret_text(pairwise),
+                            regret_text(ppca))};
   const bool is_ppca = ppca < pairwise;
   const auto difference = topic_difference(study, all_conditions(study), kAdvised,
                                            is_ppca ? kPpca : kPairwiseComplete, "mpe_m");

@@ -35,11 +35,14 @@ void judge(TopicHeadline& headline, const MeanEstimate& difference, std::string 
   headline.falls_short = is_apart_from_0(difference) && difference.mean > 0.0;
 }
 
-RegretWords regret_words(double regret_m) {
+std::string regret_text(double regret_m) {
   constexpr double kLeast_m = 0.001;  // Less makes no difference.
+  return regret_m != 0.0 && std::abs(regret_m) < kLeast_m ? "< 0.001\u00a0m" : error_text(regret_m);
+}
+
+RegretWords regret_words(double regret_m) {
   if (regret_m == 0.0) return {"equal", "to"};
-  if (std::abs(regret_m) < kLeast_m) return {"< 0.001\u00a0m", "worse than"};
-  return {error_text(regret_m), "worse than"};
+  return {regret_text(regret_m), "worse than"};
 }
 
 std::string question_of(const TopicExperiment& experiment) {

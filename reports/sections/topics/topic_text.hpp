@@ -26,8 +26,12 @@ struct TopicHeadline {
 /// @param verdict  What the test found, in words.
 void judge(TopicHeadline& headline, const MeanEstimate& difference, std::string verdict);
 
-/// By how much a mean error is larger than that of the best map, with the words that follow it:
-/// {"0.022 m", "worse than"}, {"< 0.001 m", "worse than"}, {"equal", "to"}.
+/// By how much a mean error is larger than that of the best map, the same on tiles and in
+/// sentences: "0.022 m", "< 0.001 m", "0 m".
+std::string regret_text(double regret_m);
+
+/// The same with the words that follow it on a tile: {"0.022 m", "worse than"}, {"< 0.001 m",
+/// "worse than"}, {"equal", "to"}.
 struct RegretWords {
   std::string value;
   std::string_view words;

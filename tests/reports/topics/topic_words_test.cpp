@@ -73,6 +73,20 @@ TopicStudy study_of(const Topic& topic, int layouts, const std::string& quantity
   return study;
 }
 
+TEST(TopicWords, HaveOneTextOfARegretOnTheTileAndInTheSentence) {
+  EXPECT_EQ(regret_text(0.0), "0 m");
+  EXPECT_EQ(regret_text(0.0004), "< 0.001\u00a0m");
+  const TopicStudy study =
+      study_of(kMissingTopic, 1, "mpe_m",
+               {{"auto", 0.1004}, {"pairwise-complete-smacof-knn", 0.1}, {"ppca-smacof-knn", 0.2}});
+  const TopicHeadline headline = headline_of(study);
+  EXPECT_EQ(headline.value, "< 0.001\u00a0m");
+  EXPECT_TRUE(headline.detail.starts_with("always pairwise-complete 0 m, always PPCA 0.101 m"))
+      << headline.detail;
+  EXPECT_NE(conclusions_of(study).at(0).find("costs < 0.001\u00a0m of MPE"), std::string::npos)
+      << conclusions_of(study)[0];
+}
+
 TEST(TopicWords, OfFewLayoutsJudgeNoHeadlineByADifference) {
   struct Case {
     const Topic& topic;
