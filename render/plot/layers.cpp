@@ -14,7 +14,7 @@
 namespace mapproof {
 namespace {
 
-constexpr double kMarkerSpacing = 4.0;    // Between markers of a line, in units of their size.
+constexpr double kMarkerSpacing = 4.0;    // Of a dense line, in units of their size.
 constexpr double kIntervalWidth = 0.9;    // Of an interval's bar, in lines of the theme.
 constexpr double kIntervalSpacing = 1.9;  // Between bars at one point, in lines of the theme.
 /// How far from its frame a line is drawn, in points: it cannot be seen there, and dashes that are
@@ -136,11 +136,22 @@ class Painter {
       add(ItemClass::kLine, std::move(shape), mark);
   }
 
-  /// Markers far enough apart to be distinguished, the first point always with one.
+  /// How far apart markers are at least: they only do not touch, unless the line has more points
+  /// than its frame has room for, where they leave its dashes visible between them.
+  double marker_spacing(const Polyline& line) const {
+    const double touching = 2.0 * kMarkerReach * theme_.marker_pt;
+    int in_sight = 0;
+    for (std::size_t i = 0; i < line.x.size(); ++i)
+      in_sight += in_frame(map_(line.x[i], line.y[i])) ? 1 : 0;
+    return in_sight * touching > drawing_.frames[panel_].width() ? kMarkerSpacing * theme_.marker_pt
+                                                                 : touching;
+  }
+
+  /// Each point has a marker that does not come too near to the one before it.
   void draw_markers(const Polyline& line, std::optional<std::size_t> mark) {
     if (line.marker == Marker::kNone) return;
     const std::size_t symbol = symbol_of(line.marker, true, 1.0, line.colour);
-    const double least = kMarkerSpacing * theme_.marker_pt;
+    const double least = marker_spacing(line);
     double last = -kInfinity;
     std::string values;
     for (std::size_t i = 0; i < line.x.size(); ++i) {

@@ -341,6 +341,25 @@ TEST(Curves, HaveTheValuesOfTheirMarkersForPages) {
   EXPECT_EQ(drawing.marks[0].data, (Data{{"curve", "line 0"}, {"points", "0, 0;1, 0.25"}}));
 }
 
+TEST(Curves, HaveAMarkerAtEachLevelThatHasRoomForIt) {
+  const Theme theme = report_theme();
+  const auto markers = [&](int levels) {
+    Figure figure = with_lines({0.25});
+    Polyline& line = std::get<Polyline>(figure.panels[0].layers[0]);
+    line.marker = Marker::kDiamond;
+    line.x.clear();
+    line.y.clear();
+    for (int i = 0; i < levels; ++i) {
+      line.x.push_back(i);
+      line.y.push_back(0.25);
+    }
+    const Drawing drawing = lay_out(figure, theme);
+    return std::ranges::count(drawing.items, ItemClass::kMarker, &Item::item_class);
+  };
+  EXPECT_EQ(markers(40), 40);
+  EXPECT_LT(markers(2000), 40);  // Dashes are visible between them.
+}
+
 TEST(Layout, BreaksLongNamesBesideARankDiagramIntoLinesInAJournalsColumn) {
   CriticalDifferenceSpec spec = sample_ranks(7);
   spec.methods[0].label = "Batch Levenberg\u2013Marquardt started at the true trajectory (oracle)";
