@@ -106,6 +106,7 @@ FolderReport topic_report(const std::filesystem::path& folder, const std::string
                            .figures = figures,
                            .provenance = topic_provenance(study, sessions, command, labelled.name),
                            .conclusions = conclusions_of(study),
+                           .compared_with = std::string(compared_with_of(study.experiment)),
                            .headline = Highlights::Item{.label = headline.label,
                                                         .value = headline.value,
                                                         .detail = judged_detail(headline),

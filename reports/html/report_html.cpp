@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <set>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -179,18 +180,20 @@ void set_opening(data& page, const Report& report, const FigureContext& drawn,
   std::vector<Paragraph> all = opening.findings;
   const auto [asked, more] = first_sentences(opening.question);
   if (!asked.empty()) all.insert(all.begin(), Paragraph{{phrase(asked)}});
-  const auto is_warning = [](const Paragraph& finding) {
-    return !finding.phrases.empty() && finding.phrases.front().text == "Warnings";
+  const auto begins_with = [](const Paragraph& finding, std::string_view word) {
+    return !finding.phrases.empty() && finding.phrases.front().text == word;
   };
-  // What is wrong is seen without a click, after what was done.
+  const auto is_warning = [&](const Paragraph& one) { return begins_with(one, "Warnings"); };
+  // What is wrong and what the study is compared with are seen without a click, after what was
+  // done.
   if (all.size() > 2) std::ranges::stable_partition(all.begin() + 1, all.end(), is_warning);
   if (!more.empty()) all.push_back(Paragraph{{phrase(more)}});
   std::size_t characters = 0;
   for (const Paragraph& finding : all) {
     characters += characters_of(finding);
-    const bool is_open =
-        is_warning(finding) || (folded.empty() && findings.size() < kFindingsOfFirstScreen &&
-                                (findings.empty() || characters <= kCharactersOfFirstScreen));
+    const bool is_open = is_warning(finding) || begins_with(finding, "Compared with") ||
+                         (folded.empty() && findings.size() < kFindingsOfFirstScreen &&
+                          (findings.empty() || characters <= kCharactersOfFirstScreen));
     (is_open ? findings : folded).push_back(data("phrases", phrases_data(finding, options)));
   }
   page.set("any_opening",

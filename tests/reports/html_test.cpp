@@ -225,16 +225,18 @@ TEST(ReportHtml, FoldsFindingsThatWouldPushTheFigureOffTheFirstScreen) {
   EXPECT_EQ(report_html(report, load_templates(), {}).find("more finding"), std::string::npos);
 }
 
-TEST(ReportHtml, FoldsLongFindingsButNeverWhatIsWrong) {
+TEST(ReportHtml, FoldsLongFindingsButNeverWhatIsWrongOrComparedWith) {
   Report report;
   report.opening.findings = {{{phrase("done")}},
                              {{phrase("long " + std::string(600, 'x'))}},
                              {{phrase("short")}},
+                             {{strong("Compared with"), phrase(": ground truth")}},
                              {{strong("Warnings"), phrase(": something is wrong")}}};
   const std::string page = report_html(report, load_templates(), {});
   const std::size_t fold = page.find("<summary>2 more findings</summary>");
   ASSERT_NE(fold, std::string::npos);
   EXPECT_LT(page.find("something is wrong"), fold);
+  EXPECT_LT(page.find(": ground truth"), fold);
   EXPECT_GT(page.find("long xxx"), fold);
 }
 

@@ -112,6 +112,19 @@ TEST(ResultsReport, StatesWhyMethodsAreNotCompared) {
             "MPE; MOE: the methods are not compared, since no two have values in the same runs.");
 }
 
+TEST(ResultsReport, SaysWhatTheMapsAreComparedWithAfterTheWarnings) {
+  const ResultsStudy study = study_of_two_quantities();
+  const ResultsView view(study);
+  const Report report = results_report({.view = view,
+                                        .comparisons = {},
+                                        .figures = {},
+                                        .provenance = {},
+                                        .compared_with = "the map of all landmarks"});
+  const std::vector<Phrase>& phrases = report.opening.findings.at(1).phrases;
+  EXPECT_EQ(phrases.at(0).text, "Compared with");
+  EXPECT_EQ(phrases.at(1).text, ": the map of all landmarks.");
+}
+
 TEST(ResultsReport, NamesTheWarningsOfRunsOnTheFirstScreen) {
   ResultsStudy study = study_of_two_quantities();
   study.results.outcomes = {{condition("s"), "m", "a", {"uncertified", "not_euclidean"}},

@@ -559,6 +559,10 @@ Opening opening_of(const ResultsReportInput& input) {
       if (opening.findings.size() < kFewComparisons) opening.findings.push_back(plain(conclusion));
   opening.warnings = warnings_of(input);
   opening.numbers = numbers_of(input, opening.warnings);
+  if (!input.compared_with.empty())
+    opening.findings.insert(
+        opening.findings.begin(),
+        Paragraph{{strong("Compared with"), phrase(": " + input.compared_with + ".")}});
   opening.findings.insert(opening.findings.begin(), warnings_paragraph(opening.warnings));
   choose_figures(figure_ids_of(input.view, input.figures), input.figures, opening);
   return opening;

@@ -19,6 +19,7 @@ struct ResultsReportInput {
   /// What came out, a sentence each, by whoever knows what the study asked; the report says them in
   /// place of what the comparisons came to.
   std::vector<std::string> conclusions = {};
+  std::string compared_with = {};  ///< What the maps are judged against; empty: each other.
   Highlights::Item headline = {};  ///< The first number of the first screen; no value: none.
   std::string incomplete = {};     ///< What is still missing, a sentence; empty: nothing.
   std::vector<std::string> warnings = {};  ///< What is wrong with data or maps, a clause each.

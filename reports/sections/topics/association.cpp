@@ -82,9 +82,11 @@ TopicHeadline association_headline(const TopicStudy& study) {
 
 }  // namespace
 
-const TopicWords kAssociationWords = {.topic = "association",
-                                      .question = association_question,
-                                      .conclusions = association_conclusions,
-                                      .headline = association_headline};
+const TopicWords kAssociationWords = {
+    .topic = "association",
+    .question = association_question,
+    .compared_with = "the same scans mapped with the landmark IDs as given",
+    .conclusions = association_conclusions,
+    .headline = association_headline};
 
 }  // namespace mapproof

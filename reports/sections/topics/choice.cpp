@@ -104,6 +104,7 @@ TopicHeadline choice_headline(const TopicStudy& study) {
 
 const TopicWords kChoiceWords = {.topic = "choice",
                                  .question = choice_question,
+                                 .compared_with = "the best map of each outcome and a fixed method",
                                  .conclusions = choice_conclusions,
                                  .headline = choice_headline};
 

@@ -91,9 +91,11 @@ TopicHeadline doubt_headline(const TopicStudy& study) {
 
 }  // namespace
 
-const TopicWords kDoubtWords = {.topic = "doubt",
-                                .question = doubt_question,
-                                .conclusions = doubt_conclusions,
-                                .headline = doubt_headline};
+const TopicWords kDoubtWords = {
+    .topic = "doubt",
+    .question = doubt_question,
+    .compared_with = "the known faults of the logs, and logs without faults",
+    .conclusions = doubt_conclusions,
+    .headline = doubt_headline};
 
 }  // namespace mapproof

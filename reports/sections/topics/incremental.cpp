@@ -88,9 +88,11 @@ TopicHeadline incremental_headline(const TopicStudy& study) {
 
 }  // namespace
 
-const TopicWords kIncrementalWords = {.topic = "incremental",
-                                      .question = incremental_question,
-                                      .conclusions = incremental_conclusions,
-                                      .headline = incremental_headline};
+const TopicWords kIncrementalWords = {
+    .topic = "incremental",
+    .question = incremental_question,
+    .compared_with = "the map computed again from all observations",
+    .conclusions = incremental_conclusions,
+    .headline = incremental_headline};
 
 }  // namespace mapproof

@@ -120,9 +120,11 @@ TopicHeadline missing_headline(const TopicStudy& study) {
 
 }  // namespace
 
-const TopicWords kMissingWords = {.topic = "missing",
-                                  .question = missing_question,
-                                  .conclusions = missing_conclusions,
-                                  .headline = missing_headline};
+const TopicWords kMissingWords = {
+    .topic = "missing",
+    .question = missing_question,
+    .compared_with = "the best map of each outcome, and each strategy used always",
+    .conclusions = missing_conclusions,
+    .headline = missing_headline};
 
 }  // namespace mapproof

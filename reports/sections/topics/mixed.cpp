@@ -137,6 +137,7 @@ TopicHeadline mixed_headline(const TopicStudy& study) {
 
 const TopicWords kMixedWords = {.topic = "mixed",
                                 .question = mixed_question,
+                                .compared_with = "the best sensor alone",
                                 .conclusions = mixed_conclusions,
                                 .headline = mixed_headline};
 

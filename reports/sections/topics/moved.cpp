@@ -105,9 +105,11 @@ TopicHeadline moved_headline(const TopicStudy& study) {
 
 }  // namespace
 
-const TopicWords kMovedWords = {.topic = "moved",
-                                .question = moved_question,
-                                .conclusions = moved_conclusions,
-                                .headline = moved_headline};
+const TopicWords kMovedWords = {
+    .topic = "moved",
+    .question = moved_question,
+    .compared_with = "the landmarks that were moved, and worlds where nothing moves",
+    .conclusions = moved_conclusions,
+    .headline = moved_headline};
 
 }  // namespace mapproof

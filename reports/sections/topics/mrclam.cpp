@@ -140,6 +140,7 @@ TopicHeadline mrclam_headline(const TopicStudy& study) {
 
 const TopicWords kMrclamWords = {.topic = "mrclam",
                                  .question = mrclam_question,
+                                 .compared_with = "the best single sensor",
                                  .conclusions = mrclam_conclusions,
                                  .headline = mrclam_headline,
                                  .warnings = mrclam_warnings};

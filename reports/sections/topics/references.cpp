@@ -95,9 +95,11 @@ TopicHeadline references_headline(const TopicStudy& study) {
 
 }  // namespace
 
-const TopicWords kReferencesWords = {.topic = "references",
-                                     .question = references_question,
-                                     .conclusions = references_conclusions,
-                                     .headline = references_headline};
+const TopicWords kReferencesWords = {
+    .topic = "references",
+    .question = references_question,
+    .compared_with = "the exact method, with all landmarks as references",
+    .conclusions = references_conclusions,
+    .headline = references_headline};
 
 }  // namespace mapproof

@@ -100,6 +100,7 @@ TopicHeadline submaps_headline(const TopicStudy& study) {
 
 const TopicWords kSubmapsWords = {.topic = "submaps",
                                   .question = submaps_question,
+                                  .compared_with = "the map of all landmarks as a whole",
                                   .conclusions = submaps_conclusions,
                                   .headline = submaps_headline};
 

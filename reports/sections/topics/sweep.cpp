@@ -136,6 +136,7 @@ TopicHeadline sweep_headline(const TopicStudy& study) {
 
 const TopicWords kSweepWords = {.topic = "sweep",
                                 .question = sweep_question,
+                                .compared_with = "the other methods in the same worlds",
                                 .conclusions = sweep_conclusions,
                                 .headline = sweep_headline};
 

@@ -50,6 +50,11 @@ std::string question_of(const TopicExperiment& experiment) {
   return words == nullptr ? "" : words->question(experiment);
 }
 
+std::string_view compared_with_of(const TopicExperiment& experiment) {
+  const TopicWords* words = words_of(experiment.topic);
+  return words == nullptr ? std::string_view() : words->compared_with;
+}
+
 std::vector<std::string> conclusions_of(const TopicStudy& study) {
   const TopicWords* words = words_of(study.experiment.topic);
   return words == nullptr || study.parts.empty() ? std::vector<std::string>()

@@ -43,6 +43,7 @@ struct TopicWords {
   std::string_view topic;  ///< In files: "missing".
   /// What is asked and how it is tried, two or three sentences.
   std::string (*question)(const TopicExperiment& experiment) = nullptr;
+  std::string_view compared_with = {};  ///< What its maps are judged against, within a sentence.
   /// What came out, with numbers, a sentence each.
   std::vector<std::string> (*conclusions)(const TopicStudy& study) = nullptr;
   TopicHeadline (*headline)(const TopicStudy& study) = nullptr;
@@ -59,6 +60,9 @@ std::span<const TopicWords* const> all_topic_words();
 
 /// Empty of a topic that is not known.
 std::string question_of(const TopicExperiment& experiment);
+
+/// Empty of a topic that is not known.
+std::string_view compared_with_of(const TopicExperiment& experiment);
 
 /// None of a topic that is not known, or without any part.
 std::vector<std::string> conclusions_of(const TopicStudy& study);

@@ -98,9 +98,11 @@ TopicHeadline uncertainty_headline(const TopicStudy& study) {
 
 }  // namespace
 
-const TopicWords kUncertaintyWords = {.topic = "uncertainty",
-                                      .question = uncertainty_question,
-                                      .conclusions = uncertainty_conclusions,
-                                      .headline = uncertainty_headline};
+const TopicWords kUncertaintyWords = {
+    .topic = "uncertainty",
+    .question = uncertainty_question,
+    .compared_with = "the 95\u00a0% of landmarks that the ellipses aim to cover",
+    .conclusions = uncertainty_conclusions,
+    .headline = uncertainty_headline};
 
 }  // namespace mapproof

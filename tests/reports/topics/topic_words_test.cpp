@@ -27,6 +27,16 @@ TEST(TopicWords, HaveConclusionsAndAHeadlineOfEveryTopic) {
   }
 }
 
+TEST(TopicWords, SayWhatEveryTopicIsComparedWith) {
+  for (const Topic* topic : all_topics()) {
+    TopicExperiment experiment;
+    experiment.topic = topic->name;
+    const std::string_view words = compared_with_of(experiment);
+    EXPECT_FALSE(words.empty()) << topic->name;
+    EXPECT_FALSE(words.ends_with('.')) << topic->name;  // The page adds it.
+  }
+}
+
 TEST(TopicWords, AskAQuestionOfEveryTopic) {
   for (const Topic* topic : all_topics()) {
     TopicExperiment experiment;
