@@ -111,9 +111,14 @@ function readIntervals(path, data, isBand) {
   return found.map((each) => ({ ...each, drawn: each.ends.map((end) => points[end]) }));
 }
 
+// What a tip calls a mark: lines of one name in the legend differ by their settings.
+function nameInTip({ setting, curve, method }) {
+  return setting ?? curve ?? method;
+}
+
 // Each point of a curve has what its mark says, or what its place does.
 function readCurve({ mark, at, markers }, frames) {
-  const { dataset } = mark, name = dataset.curve ?? dataset.setting ?? dataset.method;
+  const { dataset } = mark, name = nameInTip(dataset);
   const said = (dataset.points ?? "").split(";").filter(Boolean).map((pair) => {
     const cut = pair.lastIndexOf(", ");
     return [pair.slice(0, cut), pair.slice(cut + 2)];
@@ -165,8 +170,8 @@ function valuesOf(svg) {
     .map((each) => ({ ...each, number: frameOfMark(frames, path, each.drawn[0]) }));
   const bands = new Map();
   for (const { mark, at } of marks.filter(isBand)) {
-    bands.set(mark.dataset.curve, [...bands.get(mark.dataset.curve) ?? [],
-      ...intervals({ path: mark, at }, true)]);
+    const name = nameInTip(mark.dataset);
+    bands.set(name, [...bands.get(name) ?? [], ...intervals({ path: mark, at }, true)]);
   }
   const bars = drawn.hasBars ? drawn.bars.flatMap((bar) => intervals(bar)) : [];
   drawn.values = marks.filter((each) => !isBand(each)).flatMap((each) => {

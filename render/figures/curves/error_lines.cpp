@@ -129,14 +129,15 @@ void note_beyond(const ErrorLinesSpec& spec, const ErrorAxis& axis, Figure& figu
 }
 
 std::string words_of(const ErrorLine& line) {
+  const std::string& name = line.setting.empty() ? line.label : line.setting;
   std::size_t best = line.mean.size(), last = line.mean.size();
   for (std::size_t i = 0; i < line.mean.size(); ++i) {
     if (!std::isfinite(line.mean[i])) continue;
     if (best == line.mean.size() || line.mean[i] < line.mean[best]) best = i;
     last = i;
   }
-  if (last == line.mean.size()) return fmt::format(" {}: nothing known.", line.label);
-  std::string text = fmt::format(" {}: least {} at {}", line.label, significant(line.mean[best]),
+  if (last == line.mean.size()) return fmt::format(" {}: nothing known.", name);
+  std::string text = fmt::format(" {}: least {} at {}", name, significant(line.mean[best]),
                                  data_number(line.x[best]));
   if (last != best)
     text += fmt::format(", {} at {}", significant(line.mean[last]), data_number(line.x[last]));
@@ -153,6 +154,13 @@ std::string alt_of(const ErrorLinesSpec& spec, const ErrorAxis& axis) {
     if (panel.lines.empty()) text += " nothing.";
   }
   return text;
+}
+
+/// What the marks of a line name.
+std::vector<std::pair<std::string, std::string>> curve_data(const ErrorLine& line) {
+  std::vector<std::pair<std::string, std::string>> data = {{"curve", line.label}};
+  if (!line.setting.empty()) data.emplace_back("setting", line.setting);
+  return data;
 }
 
 class Builder {
@@ -172,7 +180,7 @@ class Builder {
         panel.layers.push_back(
             Band{line.label, line.x, axis_.raised(within_ceiling(line, line.low)),
                  axis_.raised(within_ceiling(line, line.high)), style(line.label).colour,
-                 Mark{prefix + line.key + "-band", {{"curve", line.label}}}});
+                 Mark{prefix + line.key + "-band", curve_data(line)}});
     // Below the lines, which then show through.
     for (const ErrorPoint& point : from.points) {
       Scatter one{.label = point.label,
@@ -204,7 +212,7 @@ class Builder {
  private:
   /// With `over`, above which the page says "over 1 km", where the line has such errors.
   Mark mark_of(const ErrorLine& line, const std::string& prefix) const {
-    Mark mark{prefix + line.key + "-mean", {{"curve", line.label}}};
+    Mark mark{prefix + line.key + "-mean", curve_data(line)};
     const auto is_great = [](double mean) { return mean > kGreatestError_m; };
     if (spec_.great_errors && spec_.y_label.ends_with("[m]") &&
         std::ranges::any_of(line.mean, is_great))

@@ -37,6 +37,8 @@ struct ErrorLine {
   /// Which style it takes (see series_style), so that a method has one style in all figures. Who
   /// asks for none, or for one that another line of the figure has, gets one that is left.
   std::optional<std::size_t> series = std::nullopt;
+  /// Which of the lines of one label in a panel it is, in tips and the alt text; may be empty.
+  std::string setting = {};
 };
 
 /// A point that differs from the lines, such as a published value.

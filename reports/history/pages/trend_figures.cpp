@@ -30,7 +30,7 @@
 namespace mapproof {
 namespace {
 
-/// More would hide each other; the table has all.
+/// Entries of a legend. More lines would hide each other; the table has all.
 constexpr std::size_t kMostLines = 12;
 
 constexpr const char* kFound = "a finding";
@@ -107,7 +107,50 @@ struct Line {
   SeriesId id = {};
   const std::vector<double>* values = nullptr;
   bool is_found = false;
+  /// What a figure calls the line together with others of its method that have findings, "ISOMAP,
+  /// all 16 settings"; empty: the line is called by its own name.
+  std::string bundle = {};
 };
+
+/// Bundles the settings of a method that have findings where the figure shows more settings of it
+/// than there are markers to tell them apart.
+/// @param all  All settings, those that the figure does not show, too.
+void bundle_settings(const StudyLabels& labels, const std::vector<Line>& all,
+                     std::vector<Line>& shown) {
+  std::map<std::string, std::size_t> of_method, shown_of_method, found_of_method;
+  for (const Line& line : all) ++of_method[base_method(labels, line.id.method)];
+  for (const Line& line : shown) {
+    const std::string base = base_method(labels, line.id.method);
+    ++shown_of_method[base];
+    if (line.is_found) ++found_of_method[base];
+  }
+  for (Line& line : shown) {
+    const std::string base = base_method(labels, line.id.method);
+    if (!line.is_found || shown_of_method[base] <= kMarkerCount) continue;
+    const std::size_t found = found_of_method[base];
+    line.bundle = shown_method(labels, base) +
+                  (found == of_method[base] ? fmt::format(", all {} settings", found)
+                                            : fmt::format(", {} settings with a finding", found));
+  }
+}
+
+/// What a figure calls a line in its legend.
+std::string entry_of(const StudyLabels& labels, const Line& line) {
+  return line.bundle.empty() ? shown_method(labels, line.id.method) : line.bundle;
+}
+
+/// The lines of the first kMostLines entries.
+std::vector<Line> first_entries(const StudyLabels& labels, std::vector<Line> lines) {
+  std::set<std::string> entries;
+  std::vector<Line> first;
+  for (Line& line : lines) {
+    const std::string entry = entry_of(labels, line);
+    if (entries.size() == kMostLines && !entries.contains(entry)) continue;
+    entries.insert(entry);
+    first.push_back(std::move(line));
+  }
+  return first;
+}
 
 /// The last step of each setting that has values.
 std::vector<Line> all_settings(const Reported& reported, const std::string& sensor,
@@ -150,7 +193,8 @@ std::vector<Line> shown_settings(const Reported& reported, const std::string& se
     if (line.is_found) lines.push_back(line);
   for (const auto& [method, line] : best)
     if (!line->is_found) lines.push_back(*line);
-  if (lines.size() > kMostLines) lines.resize(kMostLines);
+  bundle_settings(reported.trend.labels, all, lines);
+  lines = first_entries(reported.trend.labels, std::move(lines));
   std::ranges::sort(lines, {}, &Line::id);
   return lines;
 }
@@ -388,25 +432,27 @@ std::optional<std::string> values_sentence(const Reported& reported, const std::
   return text + without_change(reported.trend, *longest.values);
 }
 
-/// The styles of the settings of a figure: the first one of a method has the method's, as in all
-/// figures, and each further one the next marker that is free.
+/// The styles of the entries of a figure: the first one of a method has the method's, as in all
+/// figures, and each further one the next marker that is free. Bundles leave a marker to each.
 class StyleNumbers {
  public:
   explicit StyleNumbers(const Reported& reported) : reported_(reported) {}
 
   /// What series_style() takes; empty of a method without a style.
-  std::optional<std::size_t> next(const std::string& setting) {
-    const std::optional<std::size_t> of_method = style_of(reported_, setting);
+  std::optional<std::size_t> next(const Line& line) {
+    const std::optional<std::size_t> of_method = style_of(reported_, line.id.method);
     if (!of_method) return std::nullopt;
+    const std::string entry = entry_of(reported_.trend.labels, line);
     for (std::size_t k = 0; k < kMarkerCount; ++k)
-      if (const std::size_t style = series_of_setting(*of_method, k); taken_.insert(style).second)
+      if (const std::size_t style = series_of_setting(*of_method, k);
+          owners_.try_emplace(style, entry).first->second == entry)
         return style;
     return of_method;
   }
 
  private:
   const Reported& reported_;
-  std::set<std::size_t> taken_;
+  std::map<std::size_t, std::string> owners_;  ///< The entry that has each style.
 };
 
 std::optional<Figure> lines_figure(const Reported& reported, const std::string& sensor,
@@ -444,13 +490,16 @@ std::optional<Figure> lines_figure(const Reported& reported, const std::string& 
   ErrorPanel panel = panel_of(reported.trend);
   StyleNumbers styles(reported);
   for (const Line& line : lines) {
-    const std::string label = shown_method(reported.trend.labels, line.id.method);
+    const std::string label = entry_of(reported.trend.labels, line);
     const std::vector<double> values = shown_of(line);
     panel.lines.push_back({.label = label,
                            .key = id_of(line.id.method),
                            .x = places_of(reported.trend),
                            .mean = values,
-                           .series = styles.next(line.id.method)});
+                           .series = styles.next(line),
+                           .setting = line.bundle.empty()
+                                          ? ""
+                                          : shown_method(reported.trend.labels, line.id.method)});
     const auto is_about_it = [&](const NightlyFinding& finding) {
       return is_about(finding, line.id);
     };
@@ -495,7 +544,7 @@ std::optional<Figure> values_figure(const Reported& reported, const std::string&
   for (std::size_t i = 0; i < lines.size(); ++i)
     panel.methods.push_back({.label = shown_method(reported.trend.labels, lines[i].id.method),
                              .key = id_of(lines[i].id.method),
-                             .series = styles.next(lines[i].id.method).value_or(i),
+                             .series = styles.next(lines[i]).value_or(i),
                              .value = level_of(lines[i])});
   return value_dots_figure(
       {.id = named.id,

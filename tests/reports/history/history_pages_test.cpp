@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -154,6 +156,49 @@ TEST(HistoryPages, GiveAMethodItsStyleInAllFiguresAndEachOfItsSettingsAMarker) {
   }
   ASSERT_FALSE(alone.empty());
   for (const Marker marker : alone) EXPECT_EQ(marker, of_method);
+}
+
+TEST(HistoryPages, DrawMoreSettingsOfAMethodThanThereAreMarkersInItsColourUnderOneName) {
+  StudyTrend trend{.name = "mine"};
+  for (int number = 1; number <= 2; ++number) trend.nightly_runs.push_back({.number = number});
+  NightlyFindings findings;
+  constexpr int kSettings = 16;
+  for (int k = 5; k < 5 + kSettings; ++k) {
+    const std::string method = fmt::format("isomap-K{}", k);
+    trend.medians[{"bearing", method, 150, "mpe_m"}] = {0.1 * k, 0.2 * k};
+    findings[2].push_back(
+        {.study = "mine", .subject = "bearing, " + method + ", 150 steps", .quantity = "mpe_m"});
+  }
+  const auto drawn = [&] {
+    const Figure figure = trend_figures(trend, findings).front();
+    std::map<std::string, std::set<std::pair<ThemeColour, Marker>>> styles;
+    std::set<std::string> settings;
+    for (const Layer& layer : figure.panels.front().layers)
+      if (const auto* line = std::get_if<Polyline>(&layer)) {
+        styles[line->label].insert({line->colour, line->marker});
+        for (const auto& [key, value] : line->mark.data)
+          if (key == "setting") settings.insert(value);
+      }
+    return std::pair(styles, settings);
+  };
+  const ThemeColour colour = series_style(method_series(Method::kIsomap)).colour;
+  const auto [styles, settings] = drawn();
+  ASSERT_EQ(styles.size(), 1U);
+  EXPECT_EQ(styles.begin()->first, "ISOMAP, all 16 settings");
+  ASSERT_EQ(styles.begin()->second.size(), 1U);
+  EXPECT_EQ(styles.begin()->second.begin()->first, colour);
+  EXPECT_EQ(settings.size(), kSettings) << "all are drawn";
+  EXPECT_TRUE(settings.contains("ISOMAP, K = 20"));
+
+  findings[2].erase(findings[2].begin());  // The best one got no worse.
+  const auto with_best = drawn().first;
+  ASSERT_EQ(with_best.size(), 2U);
+  EXPECT_EQ(with_best.begin()->first, "ISOMAP, 15 settings with a finding");
+  EXPECT_EQ(with_best.rbegin()->first, "ISOMAP, K = 5");
+  const auto bundle = *with_best.begin()->second.begin(),
+             best = *with_best.rbegin()->second.begin();
+  EXPECT_EQ(bundle.first, best.first) << "a method has one colour";
+  EXPECT_NE(bundle.second, best.second);
 }
 
 TEST(HistoryPages, ShowWhatTheFirstNightlyRunMeasuredInsteadOfATrend) {
