@@ -73,6 +73,8 @@ struct Reported {
       findings;  ///< By the index of the nightly run.
   const TrendLocation& location;
   std::map<std::string, std::size_t> method_styles;
+  std::vector<FindingGroup> last_groups = {};  ///< Of the findings of the last nightly run.
+  std::size_t base = 0;  ///< The index of the nightly run that changes are shown against.
 };
 
 /// Of mapproof's own methods where the study declares none.
@@ -93,6 +95,11 @@ Reported reported_of(const StudyTrend& trend, const NightlyFindings& findings,
         nightly_run != findings.end())
       for (const NightlyFinding& finding : nightly_run->second)
         if (finding.study == trend.name) reported.findings.emplace_back(i, &finding);
+  std::vector<NightlyFinding> last;
+  for (const auto& [nightly_run, finding] : reported.findings)
+    if (nightly_run + 1 == trend.nightly_runs.size()) last.push_back(*finding);
+  reported.last_groups = grouped(trend.nightly_runs.back().number, last, std::span(&trend, 1), {});
+  reported.base = base_index(trend, last);
   return reported;
 }
 
@@ -269,21 +276,8 @@ std::vector<double> changes_of(const std::vector<double>& values, std::size_t fr
   return changes;
 }
 
-/// The findings of the last nightly run.
-std::vector<NightlyFinding> last_findings_of(const Reported& reported) {
-  std::vector<NightlyFinding> last;
-  for (const auto& [nightly_run, finding] : reported.findings)
-    if (nightly_run + 1 == reported.trend.nightly_runs.size()) last.push_back(*finding);
-  return last;
-}
-
-/// The nightly run that changes are of.
-std::size_t base_of(const Reported& reported) {
-  return base_index(reported.trend, last_findings_of(reported));
-}
-
 std::string base_words(const Reported& reported) {
-  return fmt::format("nightly run {}", reported.trend.nightly_runs[base_of(reported)].number);
+  return fmt::format("nightly run {}", reported.trend.nightly_runs[reported.base].number);
 }
 
 /// A mark at each nightly run's value of a line that a finding is about.
@@ -355,11 +349,9 @@ std::string course_without_finding(const Quantity& quantity, const std::vector<d
 /// @param last  As for course_without_finding().
 std::string course_of(const Reported& reported, const std::string& sensor, const Quantity& quantity,
                       const std::vector<double>& last) {
-  const std::vector<NightlyFinding> found = last_findings_of(reported);
   const std::string setup = shown_setup(reported.trend.labels, sensor);
   std::vector<std::string> words;
-  for (const FindingGroup& group :
-       grouped(reported.trend.nightly_runs.back().number, found, std::span(&reported.trend, 1), {}))
+  for (const FindingGroup& group : reported.last_groups)
     if (group.quantity_id == quantity.id && (group.setup == setup || group.setup.empty()))
       words.push_back(group.method + ": " + group.change_text());
   constexpr std::size_t kMostNamed = 2;
@@ -464,7 +456,7 @@ std::optional<Figure> lines_figure(const Reported& reported, const std::string& 
       facts.nightly == NightlyRule::kRatio || facts.nightly == NightlyRule::kDuration;
   const bool changes = by_ratio || facts.nightly == NightlyRule::kPoints;
   const auto shown_of = [&](const Line& line) {
-    return changes ? changes_of(*line.values, base_of(reported),
+    return changes ? changes_of(*line.values, reported.base,
                                 [&](double before, double after) {
                                   return median_change(facts, before, after);
                                 })
@@ -575,7 +567,7 @@ std::optional<std::string> memory_sentence(const Reported& reported) {
 }
 
 /// By how much it changed up to the last nightly run that it is known of.
-/// @param changes  In percent, since base_of().
+/// @param changes  In percent, since Reported::base.
 std::string memory_title(const Reported& reported, const std::vector<double>& changes) {
   const auto known = [](double change) { return std::isfinite(change); };
   const auto last = std::ranges::find_if(changes.rbegin(), changes.rend(), known);
@@ -588,7 +580,7 @@ std::string memory_title(const Reported& reported, const std::vector<double>& ch
 std::optional<Figure> memory_figure(const Reported& reported) {
   if (!has_memory_course(reported)) return std::nullopt;
   const std::vector<double>& known = reported.trend.peak_memory_mib;
-  const std::vector<double> mib = changes_of(known, base_of(reported), percent_change);
+  const std::vector<double> mib = changes_of(known, reported.base, percent_change);
   ErrorLinesSpec spec = named_spec(reported, "memory", memory_title(reported, mib));
   spec.y_label = "change of peak memory [%]";
   spec.log_from = kInfinity;
