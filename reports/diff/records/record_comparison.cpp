@@ -73,8 +73,8 @@ void judge_presence(const RecordDiff& diff, Judgement& whole, std::vector<std::s
   add(diff.new_subjects, Verdict::kNew, "record");
 }
 
-/// ", probably better, too few runs to be sure", where no test decides but this quantity alone
-/// points one way: by its own p, or without a test in all of three or more runs.
+/// "; it is probably better, but there are too few runs to be sure", where no test decides but this
+/// quantity alone points one way: by its own p, or without a test in all of three or more runs.
 std::string tendency_words(const Comparison& c) {
   constexpr int kFewest = 3;
   if (c.quantity.better == Better::kNeither || c.quantity.of_solver) return "";
@@ -86,7 +86,8 @@ std::string tendency_words(const Comparison& c) {
   } else if ((c.worse > 0) == (c.better > 0) || c.worse + c.better < kFewest) {
     return "";
   }
-  return fmt::format(", probably {}, too few runs to be sure", worse ? "worse" : "better");
+  return fmt::format("; it is probably {}, but there are too few runs to be sure",
+                     worse ? "worse" : "better");
 }
 
 /// The result of a test besides p: empty where the test decided.
@@ -114,11 +115,13 @@ void judge_comparisons(const RecordDiff& diff, Judgement& whole, std::vector<std
   if (first == nullptr || verdict_of(first->outcome) <= Verdict::kWithinTolerance) return;
   const auto beyond = std::ranges::count_if(
       all, [](const Comparison* c) { return verdict_of(c->outcome) > Verdict::kWithinTolerance; });
-  causes.push_back(
-      fmt::format("{} of {}{}{}{}{}", comparison_text(*first), first->subject, test_words(*first),
-                  tendency_words(*first),
-                  beyond > 1 ? fmt::format(", and {}", counted(beyond - 1, "other score")) : "",
-                  directions_text(all, *first)));
+  causes.push_back(fmt::format("{} of {}{}{}{}{}", comparison_text(*first), first->subject,
+                               test_words(*first), tendency_words(*first),
+                               beyond > 1
+                                   ? fmt::format("; {} {}, too", counted(beyond - 1, "other score"),
+                                                 beyond == 2 ? "differs" : "differ")
+                                   : "",
+                               directions_text(all, *first)));
 }
 
 std::string unit_words(const Quantity& quantity) {

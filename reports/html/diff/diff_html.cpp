@@ -102,9 +102,9 @@ std::string anchor_of(const DiffItem& item) {
   return (item.kind == ItemKind::kRecords ? "records-" : "figure-") + percent_encoded(item.id);
 }
 
-/// "1.2 %": how much of the images changed; empty if no image shows it.
+/// "1.2 % of pixels": how much of the images changed; empty if no image shows it.
 std::string share_text(double share) {
-  return share > 0.0 ? fmt::format("{:.2g} %", 100.0 * share) : "";
+  return share > 0.0 ? fmt::format("{:.2g}\u00a0% of pixels", 100.0 * share) : "";
 }
 
 /// The data of an item in lists: its name, verdict, link target and size.

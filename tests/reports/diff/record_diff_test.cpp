@@ -129,6 +129,7 @@ TEST(RecordDiff, CorrectsForTheNumberOfQuantitiesThatDiffer) {
       powerless.cause.find("8 pairs in 8 layouts are too few for significance in 8 quantities"),
       std::string::npos)
       << powerless.cause;
+  EXPECT_TRUE(powerless.cause.ends_with("; 7 other scores differ, too")) << powerless.cause;
   values(after)["layout-1-pose-1"] = values(before)["layout-1-pose-1"] - 1.0;
   const Judgement divided = record_diff(before, after).judgement;
   EXPECT_EQ(divided.cause.find("neither better nor worse"), std::string::npos) << divided.cause;

@@ -329,6 +329,7 @@ TEST(DiffPage, AShiftOfLimitsDoesNotDrownTheHeatMap) {
   const double share = share_on(page);
   EXPECT_GT(share, 0.0);
   EXPECT_LT(share, 0.01) << "of the pixels: two markers and a legend that found another place";
+  EXPECT_NE(page.find("% of pixels</span>"), std::string::npos) << "the list says of what it is";
 }
 
 }  // namespace
