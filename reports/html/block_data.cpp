@@ -374,6 +374,8 @@ data table_data(const Table& table, const FigureContext& drawn, const HtmlOption
   add_frames(table, options.copies_tables, out);
   out.set("any_rows", !rows.empty());
   out.set("secondary", data(table.secondary));
+  const std::ptrdiff_t worse = regressed_rows(table);
+  out.set("worse_rows", text_or_false(worse > 0 ? counted(worse, "row") + " got worse" : ""));
   out.set("folded", data(!table.secondary && table.rows.size() > kMostRowsOpen));
   out.set("row_count", counted(std::ssize(table.rows), "row"));
   out.set("table_rows", rows);

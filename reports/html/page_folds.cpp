@@ -27,6 +27,7 @@ constexpr double kMost = 12.75 * 800;  ///< Of what is open: about fifteen scree
 constexpr double kSection = 105, kFold = 42, kText = 30, kLine = 24;
 constexpr double kTable = 165, kRow = 36, kWrapped = 19, kFigure = 530, kWideFigure = 860;
 constexpr std::size_t kCharacters = 105;  ///< Of a line of text.
+constexpr std::size_t kOfFigure = 66;     ///< Characters of a line below a figure.
 }  // namespace height
 
 double height_of(const Paragraph& paragraph) {
@@ -44,6 +45,7 @@ double height_of(const Row& row) {
       const std::size_t most = i == 0 ? kOfFirst : kOfOthers;
       lines = std::max(lines, std::min(kMostLines, (text->text.size() + most - 1) / most));
     }
+  if (!row.regressed.empty()) ++lines;
   return height::kRow + height::kWrapped * static_cast<double>(lines - 1);
 }
 
@@ -55,7 +57,10 @@ double height_of(const Table& table) {
 }
 
 double height_of(const FigureBlock& figure) {
-  return figure.wide || figure.tall ? height::kWideFigure : height::kFigure;
+  const double drawing = figure.wide || figure.tall ? height::kWideFigure : height::kFigure;
+  if (figure.regressed.empty()) return drawing;
+  return drawing + height::kText +
+         height::kLine * static_cast<double>(figure.regressed.size() / height::kOfFigure);
 }
 
 /// Of those that are open: two stand side by side unless they are wide.
@@ -185,6 +190,23 @@ void fold_first_tables(Report& report, const std::set<const Section*>& folded) {
   }
 }
 
+/// Folds the tables that show what got worse but the first one, the last of the report first, until
+/// the page is low enough.
+void fold_regressed_tables(Report& report, const std::set<const Section*>& folded) {
+  std::vector<Table*> regressed;
+  for (Section& section : report.sections)
+    for (Block& block : section.blocks)
+      if (auto* table = std::get_if<Table>(&block);
+          table != nullptr && is_regressed(*table) && !table->secondary)
+        regressed.push_back(table);
+  double open = open_height(report, folded);
+  for (std::size_t i = regressed.size(); i > 1 && open > height::kMost; --i) {
+    open -= height_of(*regressed[i - 1]);
+    regressed[i - 1]->secondary = true;
+    open += height_of(*regressed[i - 1]);
+  }
+}
+
 }  // namespace
 
 std::set<const Section*> fold_to_screens(Report& report) {
@@ -202,6 +224,7 @@ std::set<const Section*> fold_to_screens(Report& report) {
   fold_some({{1, 4}, {1, 2}, {1, 1}}, true);
   fold_first_tables(report, folded);
   fold_sections(report, Interest::kMost, folded);
+  fold_regressed_tables(report, folded);
   return folded;
 }
 

@@ -69,8 +69,10 @@ bool holds_intervals(const Table& table, std::size_t column) {
   });
 }
 
-bool is_regressed(const Table& table) {
-  return std::ranges::any_of(table.rows, [](const Row& row) { return !row.regressed.empty(); });
+bool is_regressed(const Table& table) { return regressed_rows(table) > 0; }
+
+std::ptrdiff_t regressed_rows(const Table& table) {
+  return std::ranges::count_if(table.rows, [](const Row& row) { return !row.regressed.empty(); });
 }
 
 std::size_t regressed_figures(const Gallery& gallery) {

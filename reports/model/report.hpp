@@ -271,6 +271,9 @@ bool holds_intervals(const Table& table, std::size_t column);
 
 /// Whether a row of a table got worse.
 bool is_regressed(const Table& table);
+
+/// How many of its rows show something that got worse.
+std::ptrdiff_t regressed_rows(const Table& table);
 /// How many figures of a gallery there are up to the last that shows what got worse; 0: none does.
 std::size_t regressed_figures(const Gallery& gallery);
 /// Whether a table or a figure of a section shows what got worse.

@@ -320,6 +320,17 @@ TEST(ReportHtml, OfManyStudiesFoldsSectionsButTheFirstOfEachAndWhatGotWorse) {
   }
 }
 
+TEST(ReportHtml, FoldsTablesOfWhatGotWorseLastOfAllAndCountsTheirRows) {
+  Report report = large_report(1, 30);
+  for (Section& section : report.sections)
+    for (Block& block : section.blocks)
+      if (auto* table = std::get_if<Table>(&block)) table->rows[0].regressed = "MPE +18 %";
+  const std::size_t regressed = tables(report).size();
+  const std::string page = report_html(report, load_templates(), {});
+  EXPECT_EQ(count_of(page, ">1 row got worse</span>"), regressed - 1);
+  EXPECT_LT(page.find("MPE +18 %"), page.find("1 row got worse")) << "the first one is open";
+}
+
 TEST(ReportHtml, FoldsWhatFewReadersWantFirstAndWhatMostWantLast) {
   Report report = large_report(1, 9);
   report.sections[1].interest = Interest::kFew;
