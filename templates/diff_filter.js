@@ -14,6 +14,7 @@ function applyFilter() {
   document.querySelector(".found").textContent = isWhole ? "" : `${count} of ${all.length} shown`;
   const identical = by("identical");
   if (identical) identical.hidden = !identical.querySelector("li:not([hidden])");
+  if (identical && !isWhole) unfold(identical);
   if (atHand && !shown(atHand)) {
     const first = items.find(shown);
     if (first) setAtHand(first);

@@ -18,6 +18,7 @@ let held = false;  // While the script scrolls, the position does not show what 
 
 function show(item) {
   if (!shown(item)) clearFilter();
+  unfold(item);
   if (item.matches("article")) setAtHand(item);
   held = true;
   item.scrollIntoView({ block: "start" });

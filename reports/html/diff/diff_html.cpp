@@ -156,21 +156,57 @@ std::size_t size_of(const Block& block) {
   return size;
 }
 
+/// How many items a page shows open at most; of more only the first few: records and two figures
+/// take some eight screens, 30 heads with their causes five more.
+constexpr std::size_t kMostOpen = 7, kOpenOfMore = 3;
+
+/// "3 images and 2 tables": what an item shows below its cause; empty if that is nothing.
+/// @param tables  As the page shows them.
+std::string contents_text(const ShownImages& shown, long long tables, bool any_blocks) {
+  const long long images =
+      (shown.change ? 1 : 0) + (shown.format.empty()
+                                    ? 0
+                                    : static_cast<long long>(shown.baseline.has_value()) +
+                                          shown.current.has_value() + shown.heat.has_value());
+  std::vector<std::string> parts;
+  if (images > 0) parts.push_back(counted(images, "image"));
+  if (tables > 0) parts.push_back(counted(tables, "table"));
+  if (parts.empty()) return any_blocks ? "details" : "";
+  return listed(parts, 2);
+}
+
+/// Folds what the items show below their causes behind the first few, if there are many.
+/// @param contents  The words of each item, empty of one that shows nothing.
+void fold_items(list& items, const std::vector<std::string>& contents) {
+  const auto count = std::ssize(contents) - std::ranges::count(contents, "");
+  std::size_t seen = 0;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const bool folds = !contents[i].empty() && seen++ >= kOpenOfMore &&
+                       count > static_cast<std::ptrdiff_t>(kMostOpen);
+    items[i].set("folded_words", text_or_false(folds ? contents[i] : ""));
+  }
+}
+
 /// Sets the tables of an item, if the page has room for them.
 /// @param room  Bytes of the page that are left for tables.
-void set_blocks(data& out, const DiffItem& item, const DiffResult& all, std::size_t number,
-                std::size_t& room) {
+/// @return What the item shows, as contents_text() has it.
+std::string set_blocks(data& out, const DiffItem& item, const ShownImages& shown,
+                       const DiffResult& all, std::size_t number, std::size_t& room) {
   list blocks;
+  long long tables = 0;
   if (!is_repeated(all, item))
     for (const Block& block : item_blocks(item, all, number)) {
       const std::size_t size = size_of(block);
       if (size > room) continue;
       room -= size;
+      tables += std::holds_alternative<Table>(block) ? 1 : 0;
       blocks.push_back(block_data(block, {},
                                   {.figure_folder = "", .table_folder = "", .copies_tables = false},
                                   anchor_of(item)));
     }
+  const std::string contents = contents_text(shown, tables, !blocks.empty());
   out.set("blocks", blocks);
+  return contents;
 }
 
 /// The verdicts that occur, the heaviest first, each with its number of items.
@@ -251,6 +287,7 @@ void set_items(data& page, const DiffResult& result, const std::vector<ShownImag
   auto room = static_cast<std::size_t>(kTableShare * static_cast<double>(page_bytes));
   const auto refusals = refusals_of(result);
   list changed, items, identical;
+  std::vector<std::string> contents;
   for (std::size_t i = 0; i < result.items.size(); ++i) {
     const DiffItem& item = result.items[i];
     if (item.judgement.verdict == Verdict::kIdentical) {
@@ -261,8 +298,9 @@ void set_items(data& page, const DiffResult& result, const std::vector<ShownImag
     const auto refused = refusals.find(item.id);
     items.push_back(item_data(item, shown[i], result,
                               refused == refusals.end() ? nullptr : &refused->second, i + 1));
-    set_blocks(items.back(), item, result, i + 1, room);
+    contents.push_back(set_blocks(items.back(), item, shown[i], result, i + 1, room));
   }
+  fold_items(items, contents);
   page.set("identical_count", fmt::format("{}", identical.size()));
   page.set("any_identical", !identical.empty());
   page.set("any_items", !items.empty());

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <regex>
 #include <set>
 
@@ -81,6 +82,23 @@ TEST(DiffPage, ListsIdenticalImagesButDoesNotHoldThem) {
   const test::TemporaryFolder larger;
   const std::string many = page_of(test::compared_folders(larger.path(), 300));
   EXPECT_LT(many.size(), page.size() + 300 * 300);
+}
+
+TEST(DiffPage, FoldsImagesBehindTheFirstItemsOfManyAndCountsThem) {
+  const test::TemporaryFolder folder;
+  DiffResult result = test::compared_folders(folder.path());
+  EXPECT_EQ(count_of(page_of(result), "<summary>3 images"), 0) << "a few items are open";
+  const auto moved = std::ranges::find(result.items, "moved", &DiffItem::id);
+  ASSERT_NE(moved, result.items.end());
+  result.items = std::vector<DiffItem>(9, *moved);
+  for (std::size_t i = 0; i < result.items.size(); ++i)
+    result.items[i].id = "moved-" + std::to_string(i);
+  const std::string page = page_of(result);
+  const std::vector<std::string> folds =
+      all_matches(page, "<details class=\"fold\" open>\\s*<summary>([^<]*image[^<]*)</summary>");
+  ASSERT_EQ(folds.size(), 6U);
+  EXPECT_TRUE(folds.front().starts_with("3 images")) << folds.front();
+  EXPECT_GT(page.find("<summary>3 images"), page.find("id=\"figure-moved-3\""));
 }
 
 TEST(DiffPage, MakesAHeatMapOfPngsAndSvgsThatDifferUnlessTheirSizesDo) {
