@@ -63,6 +63,17 @@ FindingSetting setting_of(const StudyLabels& labels, const std::string& method,
   return setting;
 }
 
+/// How many settings of the method of a series have values of its setup and quantity.
+std::size_t count_settings(const StudyTrend& trend, const SeriesId& series) {
+  const std::string base = base_method(trend.labels, series.method);
+  std::set<std::string> settings;
+  for (const auto& [id, values] : trend.medians)
+    if (id.sensor == series.sensor && id.quantity == series.quantity &&
+        base_method(trend.labels, id.method) == base)
+      settings.insert(id.method);
+  return settings.size();
+}
+
 /// The last step of what a finding is about; null if it is about no series that is there.
 const SeriesId* last_step_of(const NightlyFinding& finding, const StudyTrend& trend) {
   const SeriesId* last = nullptr;  // Series ascend by step.
@@ -336,7 +347,14 @@ std::string FindingGroup::change_text() const {
 }
 
 std::string FindingGroup::change_of_settings() const {
-  return change_text() + (settings.empty() ? "" : " (" + settings_text(settings) + ")");
+  if (settings.empty()) return change_text();
+  constexpr std::size_t kFewest = 3;  // The names of two are as short.
+  std::set<std::string> distinct;
+  for (const FindingSetting& setting : settings) distinct.insert(setting.shown);
+  const bool are_all = distinct.size() >= kFewest && distinct.size() == settings_of_method;
+  return fmt::format(
+      "{} ({})", change_text(),
+      are_all ? fmt::format("all {} settings", distinct.size()) : settings_text(settings));
 }
 
 std::string FindingGroup::headline() const { return method + ": " + change_of_settings(); }
@@ -382,7 +400,12 @@ std::vector<FindingGroup> grouped(int nightly_run, std::span<const NightlyFindin
     append(same->lines, group.lines);
     append(same->series, group.series);
   }
-  for (FindingGroup& group : groups) name_methods(group);
+  for (FindingGroup& group : groups) {
+    name_methods(group);
+    const auto trend = std::ranges::find(trends, group.study, &StudyTrend::name);
+    if (trend != trends.end() && !group.series.empty())
+      group.settings_of_method = count_settings(*trend, group.series.front());
+  }
   std::ranges::stable_partition(groups, [](const FindingGroup& group) { return !group.is_time; });
   std::ranges::stable_partition(groups, [](const FindingGroup& group) { return !group.known; });
   return groups;

@@ -74,6 +74,22 @@ TEST(FindingGroups, AreOfOneMethodAndSayWhatChangedByHowMuchAndSinceWhichCommits
   EXPECT_EQ(group.count_text(), "2 findings");
 }
 
+TEST(FindingGroups, OfAllSettingsOfAMethodSaySoInsteadOfNamingEach) {
+  StudyTrend trend = two_settings();
+  trend.medians[{"bearing", "isomap-K10", 150, "mpe_m"}] = {0.10, 0.12, 0.12};
+  std::vector<NightlyFinding> findings = two_findings();
+  findings.push_back(findings.front());
+  findings.back().subject = "bearing, isomap-K10, 150 steps";
+  const auto headline = [&] {
+    return grouped(3, findings, std::span(&trend, 1), {}).at(0).headline();
+  };
+  EXPECT_EQ(headline(), "ISOMAP: MPE +20.0\u00a0% (all 3 settings)");
+  trend.medians[{"range", "isomap-K12", 150, "mpe_m"}] = {0.10, 0.10, 0.10};
+  EXPECT_EQ(headline(), "ISOMAP: MPE +20.0\u00a0% (all 3 settings)") << "of this setup";
+  trend.medians[{"bearing", "isomap-K12", 150, "mpe_m"}] = {0.10, 0.10, 0.10};
+  EXPECT_EQ(headline(), "ISOMAP: MPE +20.0\u00a0% (K = 6, 8 and 10)");
+}
+
 TEST(FindingGroups, OfAnotherProgramJoinMethodsWhoseNamesDifferInTheirLastNumberAlone) {
   StudyTrend trend = two_settings();
   trend.labels.setups = {{"bearing", "Hall"}};
