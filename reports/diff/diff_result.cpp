@@ -194,6 +194,14 @@ std::string counts_text(const DiffResult& result) {
   return text;
 }
 
+std::string counts_and_first(const DiffResult& result) {
+  const auto first = std::ranges::find_if(result.items, [](const DiffItem& item) {
+    return item.judgement.verdict != Verdict::kIdentical;
+  });
+  const std::string counts = counts_text(result);
+  return first == result.items.end() ? counts : counts + ". The first is " + first->id;
+}
+
 std::vector<std::string> version_changes(const DiffResult& result) {
   std::vector<std::string> changes;
   for (const DiffItem& item : result.items) {

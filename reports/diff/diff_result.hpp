@@ -95,6 +95,9 @@ inline const std::string& shown_current(const DiffResult& result) {
 std::vector<int> counts_of(const DiffResult& result);
 /// "1 data, worse, 2 style, 51 identical": those that occur, the heaviest first.
 std::string counts_text(const DiffResult& result);
+/// "1 data, worse, 51 identical. The first is fig-7": the counts and the first item that differs;
+/// the counts alone where none does.
+std::string counts_and_first(const DiffResult& result);
 
 /// The versions that the records name and that differ, each once: "FreeType 2.12 → 2.13". They are
 /// not judged.

@@ -190,7 +190,7 @@ DiffItem missing_report(std::size_t items, const std::string& current,
   return item;
 }
 
-/// "1 data, worse, 2 style, 51 identical. The first is …".
+/// "1 data, worse, 51 identical. The first is fig-7: …", its cause.
 Judgement judge_whole(const DiffResult& result) {
   Judgement whole;
   whole.visible = false;
@@ -199,8 +199,7 @@ Judgement judge_whole(const DiffResult& result) {
     whole.visible |= item.judgement.visible;
   }
   if (whole.verdict == Verdict::kIdentical) return whole;
-  whole.cause = fmt::format("{}. The first is {}: {}", counts_text(result), result.items[0].id,
-                            result.items[0].judgement.cause);
+  whole.cause = counts_and_first(result) + ": " + result.items[0].judgement.cause;
   return whole;
 }
 

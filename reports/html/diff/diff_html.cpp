@@ -312,11 +312,11 @@ void set_items(data& page, const DiffResult& result, const std::vector<ShownImag
 /// The counts and the first item that differs, whose cause stands beside it; nothing of one item
 /// alone, and where none differs.
 std::string whole_text(const DiffResult& result) {
-  const auto first = std::ranges::find_if(result.items, [](const DiffItem& item) {
+  const bool differs = std::ranges::any_of(result.items, [](const DiffItem& item) {
     return item.judgement.verdict != Verdict::kIdentical;
   });
-  if (first == result.items.end() || result.items.size() == 1) return "";
-  return fmt::format("{}. The first is {}.", counts_text(result), printable(first->id, kMostName));
+  if (!differs || result.items.size() == 1) return "";
+  return printable(counts_and_first(result), kMostCause) + ".";
 }
 
 /// The names of two paths without the folders that they share: "a/b" and "a/c" are "b" and "c".
