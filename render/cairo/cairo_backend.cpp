@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <mutex>
 #include <new>
 
 #include <cairo-pdf.h>
@@ -143,14 +144,24 @@ std::string to_png(const Drawing& drawing) {
 
 namespace {
 
+using CreateSurface = decltype(&cairo_pdf_surface_create_for_stream);
+
+/// One thread at a time: Cairo asks for the local time here. The lock under which libc then sets
+/// its time zone is one that ThreadSanitizer does not see.
+SurfaceHandle create_surface(CreateSurface create, const Drawing& drawing, std::string& bytes) {
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  return SurfaceHandle(create(append_to, &bytes, drawing.width, drawing.height));
+}
+
 /// The only page of a surface that writes to a stream.
 /// @param create  Of a kind of surface. @param set_words  What its file says of the drawing.
-std::string page_of(const Drawing& drawing, decltype(&cairo_pdf_surface_create_for_stream) create,
+std::string page_of(const Drawing& drawing, CreateSurface create,
                     void (*set_words)(const Drawing&, cairo_surface_t*)) {
   std::string bytes;
   errno = 0;
   std::vector<SurfaceHandle> images;
-  SurfaceHandle surface(create(append_to, &bytes, drawing.width, drawing.height));
+  SurfaceHandle surface = create_surface(create, drawing, bytes);
   try {
     set_words(drawing, surface.get());
     draw_page(drawing, surface.get(), images);
