@@ -499,6 +499,8 @@ TEST(HeatMapFinding, SaysWhereTheValuesAreLeastAndGreatestWhereNoFactorIsClear) 
   EXPECT_TRUE(says_where()) << "a value is missing";
   spec.values.assign(9, 1.0);
   EXPECT_TRUE(says_where()) << "all are equal";
+  spec.values = {1.0, 1.0, 1.0, 1.0001, 1.0001, 1.0001, 1.0002, 1.0002, 1.0002};
+  EXPECT_TRUE(says_where()) << "all have the same digits";
   spec = sample_heat(3, 2);
   spec.values = {1.0, 1.1, 1.2, 2.0, 2.1, 2.2};
   EXPECT_TRUE(says_where()) << "of two levels";

@@ -190,7 +190,8 @@ double spread_in_rows(const Eigen::ArrayXXd& rows) {
 
 /// "MPE depends more on side of the room than on landmarks, between 0.04 m and 0.36 m": which of
 /// the factors changes the values at least twice as much as the other, as the colours show them.
-/// Empty if none does, if a value is missing or great, or if a factor has fewer than three levels.
+/// Empty if none does, if a value is missing or great, if all are shown alike, or if a factor has
+/// fewer than three levels.
 std::string finding_of_factors(const HeatMapSpec& spec, const std::string& quantity) {
   // Noise alone does as much in one of 40 maps of 3 x 3 cells, but in one of four of 2 x 2.
   constexpr double kClear = 2.0;
@@ -200,18 +201,18 @@ std::string finding_of_factors(const HeatMapSpec& spec, const std::string& quant
         return !std::isfinite(value) || is_great(spec, value);
       }))
     return "";
+  const auto [least, most] = std::ranges::minmax(spec.values);
+  const std::string low = quantity_text(least, spec.unit), high = quantity_text(most, spec.unit);
+  if (low == high) return "";  // Means of equal values differ by rounding.
   const auto columns = static_cast<Eigen::Index>(spec.x_names.size());
   const auto rows = static_cast<Eigen::Index>(spec.y_names.size());
   Eigen::ArrayXXd along_y = Eigen::Map<const Eigen::ArrayXXd>(spec.values.data(), columns, rows);
   if (colour_scale_of(spec, span_of(spec)) == Scale::kLog) along_y = along_y.log().eval();
   const double of_y = spread_in_rows(along_y), of_x = spread_in_rows(along_y.transpose());
-  const double lesser = std::min(of_x, of_y), greater = std::max(of_x, of_y);
-  if (!(greater > 0.0 && greater >= kClear * lesser)) return "";
+  if (std::max(of_x, of_y) < kClear * std::min(of_x, of_y)) return "";
   const std::string x = line_axis(spec.x_label).name, y = line_axis(spec.y_label).name;
-  const auto [least, most] = std::ranges::minmax(spec.values);
   return fmt::format("{} depends more on {} than on {}, between {} and {}", quantity,
-                     of_x > of_y ? x : y, of_x > of_y ? y : x, quantity_text(least, spec.unit),
-                     quantity_text(most, spec.unit));
+                     of_x > of_y ? x : y, of_x > of_y ? y : x, low, high);
 }
 
 }  // namespace

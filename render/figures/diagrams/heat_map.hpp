@@ -37,9 +37,9 @@ struct HeatMapSpec {
 Figure heat_map_figure(const HeatMapSpec& spec);
 
 /// Which factor changes the values more, as a title: "MPE depends more on side of the room than on
-/// landmarks, between 0.04 m and 0.36 m". Where none does so clearly, where they are least and
-/// greatest: "lowest MPE 0.04 m at 50 and 1.5 m, highest 0.36 m at 80 and 4 m", first the level of
-/// x. @param quantity  In a sentence.
+/// landmarks, between 0.04 m and 0.36 m". Where no factor is clear, the title says where the values
+/// are least and greatest: "lowest MPE 0.04 m at 50 and 1.5 m, highest 0.36 m at 80 and 4 m", first
+/// the level of x. @param quantity  In a sentence.
 /// @throws InvalidInput as above.
 std::string heat_map_finding(const HeatMapSpec& spec, const std::string& quantity);
 
