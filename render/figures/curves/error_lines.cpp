@@ -156,10 +156,14 @@ std::string alt_of(const ErrorLinesSpec& spec, const ErrorAxis& axis) {
   return text;
 }
 
-/// What the marks of a line name.
-std::vector<std::pair<std::string, std::string>> curve_data(const ErrorLine& line) {
-  std::vector<std::pair<std::string, std::string>> data = {{"curve", line.label}};
-  if (!line.setting.empty()) data.emplace_back("setting", line.setting);
+using MarkData = std::vector<std::pair<std::string, std::string>>;
+
+/// What the marks of a line name, and its points.
+/// @param more  What else the mark says.
+MarkData curve_data(const std::string& label, const std::string& setting, MarkData more = {}) {
+  MarkData data = {{"curve", label}};
+  if (!setting.empty()) data.emplace_back("setting", setting);
+  data.insert(data.end(), more.begin(), more.end());
   return data;
 }
 
@@ -180,7 +184,7 @@ class Builder {
         panel.layers.push_back(
             Band{line.label, line.x, axis_.raised(within_ceiling(line, line.low)),
                  axis_.raised(within_ceiling(line, line.high)), style(line.label).colour,
-                 Mark{prefix + line.key + "-band", curve_data(line)}});
+                 Mark{prefix + line.key + "-band", curve_data(line.label, line.setting)}});
     // Below the lines, which then show through.
     for (const ErrorPoint& point : from.points) {
       Scatter one{.label = point.label,
@@ -190,11 +194,10 @@ class Builder {
                   .marker = point.marker,
                   .filled = false,
                   .size = point.size};
-      one.marks.push_back({"",
-                           {{"curve", point.line},
-                            {"kind", point.label},
-                            {"x", data_number(point.x)},
-                            {"y", data_number(point.y)}}});
+      one.marks.push_back({"", curve_data(point.line, point.setting,
+                                          {{"kind", point.label},
+                                           {"x", data_number(point.x)},
+                                           {"y", data_number(point.y)}})});
       panel.layers.push_back(std::move(one));
     }
     for (const ErrorLine& line : from.lines) {
@@ -212,7 +215,7 @@ class Builder {
  private:
   /// With `over`, above which the page says "over 1 km", where the line has such errors.
   Mark mark_of(const ErrorLine& line, const std::string& prefix) const {
-    Mark mark{prefix + line.key + "-mean", curve_data(line)};
+    Mark mark{prefix + line.key + "-mean", curve_data(line.label, line.setting)};
     const auto is_great = [](double mean) { return mean > kGreatestError_m; };
     if (spec_.great_errors && spec_.y_label.ends_with("[m]") &&
         std::ranges::any_of(line.mean, is_great))
@@ -248,10 +251,9 @@ class Builder {
       if (!is_above(line.mean[i])) continue;
       above.x.push_back(line.x[i]);
       above.y.push_back(axis_.near_top());
-      above.marks.push_back({"",
-                             {{"curve", line.label},
-                              {"x", data_number(line.x[i])},
-                              {"y", data_number(line.mean[i])}}});
+      above.marks.push_back(
+          {"", curve_data(line.label, line.setting,
+                          {{"x", data_number(line.x[i])}, {"y", data_number(line.mean[i])}})});
     }
     return above;
   }

@@ -49,6 +49,7 @@ struct ErrorPoint {
   double y = 0.0;
   Marker marker = Marker::kDiamond;
   double size = 2.0;  ///< In units of the theme's marker size.
+  std::string setting = {};  ///< That of the line; may be empty.
 };
 
 struct ErrorPanel {

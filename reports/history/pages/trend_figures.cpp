@@ -282,17 +282,17 @@ std::string base_words(const Reported& reported) {
 
 /// A mark at each nightly run's value of a line that a finding is about.
 template <typename Predicate>
-void mark_findings(const Reported& reported, const std::string& label,
-                   const std::vector<double>& values, const Predicate& is_about_it,
+void mark_findings(const Reported& reported, const ErrorLine& line, const Predicate& is_about_it,
                    ErrorPanel& panel) {
   std::set<std::size_t> marked;
   for (const auto& [nightly_run, finding] : reported.findings)
-    if (is_about_it(*finding) && std::isfinite(values[nightly_run]) &&
+    if (is_about_it(*finding) && std::isfinite(line.mean[nightly_run]) &&
         marked.insert(nightly_run).second)
       panel.points.push_back({.label = kFound,
-                              .line = label,
+                              .line = line.label,
                               .x = static_cast<double>(nightly_run),
-                              .y = values[nightly_run]});
+                              .y = line.mean[nightly_run],
+                              .setting = line.setting});
 }
 
 /// What all figures of a trend have in common.
@@ -425,7 +425,7 @@ std::optional<std::string> values_sentence(const Reported& reported, const std::
 }
 
 /// The styles of the entries of a figure: the first one of a method has the method's, as in all
-/// figures, and each further one the next marker that is free. Bundles leave a marker to each.
+/// figures, and each further one the next marker that is free. The lines of a bundle are one entry.
 class StyleNumbers {
  public:
   explicit StyleNumbers(const Reported& reported) : reported_(reported) {}
@@ -482,12 +482,10 @@ std::optional<Figure> lines_figure(const Reported& reported, const std::string& 
   ErrorPanel panel = panel_of(reported.trend);
   StyleNumbers styles(reported);
   for (const Line& line : lines) {
-    const std::string label = entry_of(reported.trend.labels, line);
-    const std::vector<double> values = shown_of(line);
-    panel.lines.push_back({.label = label,
+    panel.lines.push_back({.label = entry_of(reported.trend.labels, line),
                            .key = id_of(line.id.method),
                            .x = places_of(reported.trend),
-                           .mean = values,
+                           .mean = shown_of(line),
                            .series = styles.next(line),
                            .setting = line.bundle.empty()
                                           ? ""
@@ -495,7 +493,7 @@ std::optional<Figure> lines_figure(const Reported& reported, const std::string& 
     const auto is_about_it = [&](const NightlyFinding& finding) {
       return is_about(finding, line.id);
     };
-    mark_findings(reported, label, values, is_about_it, panel);
+    mark_findings(reported, panel.lines.back(), is_about_it, panel);
   }
   return drawn(std::move(spec), std::move(panel), facts.nightly == NightlyRule::kDuration);
 }
@@ -591,7 +589,7 @@ std::optional<Figure> memory_figure(const Reported& reported) {
   ErrorPanel panel = panel_of(reported.trend);
   panel.lines.push_back(
       {.label = "peak memory", .key = "peak-memory", .x = places_of(reported.trend), .mean = mib});
-  mark_findings(reported, "peak memory", mib, is_about_memory, panel);
+  mark_findings(reported, panel.lines.back(), is_about_memory, panel);
   return drawn(std::move(spec), std::move(panel), true);
 }
 

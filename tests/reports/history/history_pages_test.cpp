@@ -172,13 +172,19 @@ TEST(HistoryPages, DrawMoreSettingsOfAMethodThanThereAreMarkersInItsColourUnderO
   const auto drawn = [&] {
     const Figure figure = trend_figures(trend, findings).front();
     std::map<std::string, std::set<std::pair<ThemeColour, Marker>>> styles;
-    std::set<std::string> settings;
+    std::set<std::string> settings, of_findings;
+    const auto add_setting = [](const Mark& mark, std::set<std::string>& all) {
+      for (const auto& [key, value] : mark.data)
+        if (key == "setting") all.insert(value);
+    };
     for (const Layer& layer : figure.panels.front().layers)
       if (const auto* line = std::get_if<Polyline>(&layer)) {
         styles[line->label].insert({line->colour, line->marker});
-        for (const auto& [key, value] : line->mark.data)
-          if (key == "setting") settings.insert(value);
+        add_setting(line->mark, settings);
+      } else if (const auto* found = std::get_if<Scatter>(&layer)) {
+        for (const Mark& mark : found->marks) add_setting(mark, of_findings);
       }
+    EXPECT_EQ(settings, of_findings) << "the ring of a finding names the setting of its line";
     return std::pair(styles, settings);
   };
   const ThemeColour colour = series_style(method_series(Method::kIsomap)).colour;
