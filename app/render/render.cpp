@@ -269,7 +269,7 @@ void edit(const StyleArguments& arguments, const FigureStyle& style, Drawables& 
 void require_sizes(const Drawables& drawables, const Formats& formats, const Theme& theme) {
   if (formats.files.contains(FileFormat::kPng))
     for (const Figure& figure : drawables.figures) require_image_size(lay_out(figure, theme));
-  for (const Scene& scene : drawables.scenes) require_scene_size(scene, theme);
+  for (const Scene& scene : drawables.scenes) require_scene_size(scene, theme, formats.files);
   for (const Film& film : drawables.films) require_film_size(film, theme);
 }
 

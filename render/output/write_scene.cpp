@@ -64,6 +64,18 @@ bool shows_pixels(FileFormat format) {
          format != FileFormat::kMatplotlib;
 }
 
+/// A scene laid out, the sizes of its images checked as SceneClient::require_size() does.
+Drawing checked_layout(const Scene& scene, const Theme& theme) {
+  Drawing drawing = lay_out(scene_figure(scene, theme), theme);
+  const double per_point = theme.dpi / 72.0;
+  for (const Item& item : drawing.items)
+    if (const auto* raster = std::get_if<Raster>(&item.what)) {
+      const auto [width, height] = pixels_of(on_pixels(raster->position, per_point), per_point);
+      SceneClient::require_size(scene, width, height);
+    }
+  return drawing;
+}
+
 /// How much finer the poster is; 1 where it would be larger than an image can be.
 int poster_scale(const Drawing& drawing) {
   const double longest = std::max(drawing.width, drawing.height) * drawing.dpi / 72.0;
@@ -101,21 +113,14 @@ void write_animation(const Film& film, const Theme& theme, const OutputFolder& f
   }
 }
 
-void require_scene_size(const Scene& scene, const Theme& theme) {
-  const double per_point = theme.dpi / 72.0;
-  for (const Item& item : lay_out(scene_figure(scene, theme), theme).items)
-    if (const auto* raster = std::get_if<Raster>(&item.what)) {
-      const auto [width, height] = pixels_of(on_pixels(raster->position, per_point), per_point);
-      SceneClient::require_size(scene, width, height);
-    }
+void require_scene_size(const Scene& scene, const Theme& theme, const FileFormats& formats) {
+  if (std::ranges::any_of(formats, shows_pixels)) checked_layout(scene, theme);
 }
 
 void require_film_size(const Film& film, const Theme& theme) {
-  const Scene& first = film.frames.front();
-  require_scene_size(first, theme);
-  const Drawing drawing = lay_out(scene_figure(first, theme), theme);
-  const auto [width, height] =
-      pixels_of({0.0, 0.0, drawing.width, drawing.height}, theme.dpi / 72.0);
+  Drawing first;
+  if (!film.frames.empty()) first = checked_layout(film.frames.front(), theme);
+  const auto [width, height] = pixels_of({0.0, 0.0, first.width, first.height}, theme.dpi / 72.0);
   require_animation_size(width, height, film.frames.size());
 }
 

@@ -40,11 +40,12 @@ struct SceneDrawing {
 };
 
 /// Checks the sizes of a scene's images before anything is drawn.
+/// @param formats  Files without images have no such bounds.
 /// @throws InvalidInput if a side of one would have no pixel or more than
 ///         SceneClient::kLargestSide.
-void require_scene_size(const Scene& scene, const Theme& theme);
+void require_scene_size(const Scene& scene, const Theme& theme, const FileFormats& formats);
 
-/// Checks a film's first frame, and how many there are.
+/// Checks the size of a film's first frame, and the number of its frames.
 /// @throws InvalidInput as require_scene_size() and require_animation_size().
 void require_film_size(const Film& film, const Theme& theme);
 

@@ -119,6 +119,17 @@ TEST(SceneDrawingTest, HasDarkImagesForAPageAlone) {
   EXPECT_FALSE(draw_scene(small_scene(), baseline_theme(), one).page);
 }
 
+TEST(SceneSizes, HaveBoundsInFilesWithImagesAlone) {
+  Theme fine = baseline_theme();
+  fine.dpi = 100'000.0;
+  const Scene scene = small_scene();
+  EXPECT_THROW(require_scene_size(scene, fine, {FileFormat::kSvg}), InvalidInput);
+  EXPECT_NO_THROW(require_scene_size(scene, fine, {FileFormat::kMatplotlib, FileFormat::kJson}));
+  EXPECT_NO_THROW(require_scene_size(scene, baseline_theme(), {FileFormat::kSvg}));
+  EXPECT_THROW(require_film_size({.id = "film", .frames = {scene, scene}}, fine), InvalidInput);
+  EXPECT_THROW(require_film_size({.id = "film", .frames = {}}, fine), InvalidInput);
+}
+
 /// The middle of all pixels that are not white.
 Point middle_of_marks(const Image& image) {
   double x = 0.0, y = 0.0, count = 0.0;
