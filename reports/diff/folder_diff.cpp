@@ -190,7 +190,7 @@ DiffItem missing_report(std::size_t items, const std::string& current,
   return item;
 }
 
-/// "1 data, worse, 51 identical. The first is fig-7: …", its cause.
+/// "1 data, worse, 51 identical. The first is fig-7: …", which ends with its cause.
 Judgement judge_whole(const DiffResult& result) {
   Judgement whole;
   whole.visible = false;

@@ -70,7 +70,7 @@ struct FindingGroup {
   std::string method = {};                 ///< "ISOMAP", "all methods", "isomap-K6 and isomap-K8".
   std::string family = {};                 ///< `method` but for the number at its end: "isomap-K".
   std::vector<FindingSetting> settings = {};  ///< None: the method has none.
-  std::size_t settings_of_method = 0;         ///< How many have values, with and without a finding.
+  std::size_t settings_of_method = 0;         ///< How many have values of this quantity.
   std::string quantity = {};               ///< Its label.
   std::string quantity_id = {};
   /// Of each finding that has one: by rule kAccuracy the change of the median at the last step, as
@@ -93,7 +93,7 @@ struct FindingGroup {
   /// "MPE +17.6 %", "seconds +12.0 to +14.1 %", "results are lost"; of an error that got worse in
   /// pairs of runs alone "MPE got worse in pairs of runs, its median −0.3 %".
   std::string change_text() const;
-  /// "MPE +17.6 % (K = 6 and 8)", "MPE +17.6 % (all 4 settings)" of three or more that are all.
+  /// "MPE +17.6 % (K = 6 and 8)", "MPE +17.6 % (all 4 settings)" where three or more are all.
   std::string change_of_settings() const;
   /// "ISOMAP: MPE +17.6 % (K = 6 and 8)".
   std::string headline() const;

@@ -25,7 +25,7 @@ std::string level_number_text(double value);
 /// `value` with `decimals` digits behind the point, U+2212 for minus, no minus before zero.
 std::string number_text(double value, int decimals);
 
-/// The same beside others of up to `greatest`: its thousands are apart as those of count_text().
+/// The same beside numbers of up to `greatest`: its thousands are apart as those of count_text().
 std::string number_text(double value, int decimals, double greatest);
 
 /// `value` with so many significant digits, zeros at their end among them: "0.0120". Never in
@@ -33,9 +33,9 @@ std::string number_text(double value, int decimals, double greatest);
 /// here, so that one number has the same digits everywhere.
 std::string significant(double value, int digits = 3);
 
-/// `value` with so many decimals, beside others of up to `greatest`. Where these would show zeros
-/// alone of a value that is none, it is "≈ 0"; with six decimals or more, which a quantity of small
-/// values has, significant digits.
+/// `value` with so many decimals, beside numbers of up to `greatest`. A value that is not 0 but
+/// would show zeros alone is "≈ 0"; with six decimals or more, which a quantity of small values
+/// has, it has significant digits.
 std::string rounded_text(double value, int decimals, double greatest, int digits = 3);
 
 /// A value of a quantity, "0.0120 m", "88.6 %", "2.06°", with a no-break space. A whole number

@@ -70,9 +70,9 @@ std::string best_of_all(const std::vector<ErrorLine>& lines, const LineQuantity&
 
 /// Which line is best, and ties with none, at the most points of several panels: "ISOMAP has the
 /// lowest MPE at 7 of 9 points", "at all points", and at a single one "SDE has the lowest MPE, 0.14
-/// m". Points count at which its mean is the best but intervals overlap, and the title says how
+/// m". Points at which its mean is the best but intervals overlap count, too. The title says how
 /// many they are: "at all 9 points; intervals overlap at 2". Empty if nothing is known, if two
-/// lines are it equally often, or if it is so at no more than half of the points.
+/// lines are best equally often, or if none is best without a tie at more than half of the points.
 std::string best_of_points(const std::vector<std::vector<ErrorLine>>& panels,
                            const LineQuantity& quantity);
 

@@ -451,7 +451,8 @@ Figure pareto_figure(const ParetoSpec& spec) {
   panel.y.label = spec.y_label;
   panel.y.scale = axis.scale;
   panel.y.limits = axis.limits;
-  // Of several settings it is there even with one on the front, which other times may make two.
+  // A front of one setting has its line, too: with other times it may have two settings, and the
+  // figure must have the same layers then.
   if (errors.size() > 1) panel.layers.emplace_back(layers.steps);
   panel.layers.insert(panel.layers.end(), {layers.beaten, layers.best, layers.names});
   std::erase_if(panel.layers, is_empty);

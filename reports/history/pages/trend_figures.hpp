@@ -21,10 +21,11 @@ struct TrendLocation {
 
 /// Figures of a trend: one a sensor and quantity of accuracy, seconds, memory. Lines are the
 /// setting of each method that was best over the nightly runs, and every setting that has a finding
-/// on one of them, which is marked there; more such settings of a method than there are markers
-/// have one entry in the legend. What has fewer than two values of a line, or did not
-/// change and has no finding, has a sentence instead; where every accuracy has, the first figure
-/// shows the values of the methods. Pure: the same values give the same figures.
+/// on one of them, which is marked there. Where a figure shows more settings of a method than there
+/// are markers, those with a finding have one entry in the legend. What has fewer than two values
+/// of a line, or did not change and has no finding, has a sentence instead; where every accuracy
+/// has, the first figure shows the values of the methods. Pure: the same values give the same
+/// figures.
 /// @param trend     At least one nightly run.
 /// @param findings  Of any study; those of other studies are left out.
 std::vector<Figure> trend_figures(const StudyTrend& trend, const NightlyFindings& findings,
