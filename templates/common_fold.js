@@ -11,10 +11,18 @@ function unfold(element) {
   }
 }
 
+// Null where the page has no such element, and of a name that is not UTF-8.
+function targetOfLink() {
+  try {
+    return document.getElementById(decodeURIComponent(location.hash.slice(1)));
+  } catch {
+    return null;
+  }
+}
+
 // The target of a link may be folded: it is opened, and then scrolled to.
 function unfoldTarget() {
-  const id = decodeURIComponent(location.hash.slice(1));
-  const target = id ? document.getElementById(id) : null;
+  const target = targetOfLink();
   if (!target) return;
   unfold(target);
   target.scrollIntoView();

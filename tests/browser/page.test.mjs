@@ -200,6 +200,15 @@ test("a link to what is folded opens it, as in another tab", async () => {
   await close();
 });
 
+test("a link whose name is not UTF-8 leaves the page as it is", async () => {
+  const { page, errors, close } = await open({}, undefined, undefined, "#%FF");
+  await page.locator("html.folds").waitFor({ state: "attached" });
+  await page.evaluate(() => { location.hash = "#table-durations"; });
+  await page.locator("#table-durations tbody tr").first().waitFor();
+  assert.deepEqual(errors, []);
+  await close();
+});
+
 test("every section and figure gives a link to itself", async () => {
   const { page, close } = await open();
   const links = await page.locator("main > section[id^=section-] h2 a.anchor").evaluateAll(
