@@ -38,14 +38,19 @@ std::string sentence_of(const FindingGroup& group, std::size_t all) {
   return text + (group.known ? "; known: " + group.known->text : ".");
 }
 
+/// Adds the first groups of a study; a single group beyond kMostReported has its own sentence,
+/// since the one that counts it would be as long.
 /// @param before  Put before each sentence.
 void add_findings(std::span<const FindingGroup> groups, const std::string& study,
                   const std::string& before, Standing& standing) {
   std::size_t count = 0, more = 0;
   const std::size_t all = count_findings(groups, false);
+  const auto of_study =
+      static_cast<std::size_t>(std::ranges::count(groups, study, &FindingGroup::study));
+  const std::size_t shown = of_study == kMostReported + 1 ? of_study : kMostReported;
   for (const FindingGroup& group : groups) {
     if (group.study != study) continue;
-    if (++count <= kMostReported)
+    if (++count <= shown)
       standing.sentences.push_back(before + sentence_of(group, all));
     else
       more += group.numbers.size();

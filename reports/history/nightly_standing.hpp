@@ -16,7 +16,7 @@ namespace mapproof {
 inline constexpr std::size_t kMostReported = 3;
 
 /// The verdict on a study of a judged nightly run: its first groups of findings, and how many more
-/// there are.
+/// findings there are; a fourth group is shown if it is the last.
 /// @param groups       Of that nightly run; those of other studies are left out.
 /// @param is_compared  Whether the reference run has the study, ordered in the same way.
 Standing study_standing(const NightlyFacts& nightly_run, std::span<const FindingGroup> groups,

@@ -74,6 +74,20 @@ TEST(HistoryPages, BeginWithThreeFindingsAndSayHowManyMore) {
   EXPECT_EQ(index.opening.standing->sentences.size(), 4U);
 }
 
+TEST(HistoryPages, ShowTheLastFindingInsteadOfCountingIt) {
+  std::vector<NightlyFinding> findings;
+  for (int i = 1; i <= 4; ++i)
+    findings.push_back({.study = "mine",
+                        .subject = fmt::format("method {}", i),
+                        .quantity = "mpe_m",
+                        .since = 5,
+                        .change = i});
+  const std::vector<FindingGroup> groups = grouped(5, findings, {}, {});
+  const Standing stands = study_standing({.number = 5}, groups, "mine", true);
+  ASSERT_EQ(stands.sentences.size(), 4U);
+  EXPECT_EQ(stands.sentences[3], "method 4: mpe_m +4.0\u00a0%, since nightly run 5.");
+}
+
 /// A trend of two settings of ISOMAP, the first of which was best until the last nightly run.
 StudyTrend best_got_worse() {
   StudyTrend trend{.name = "mine"};
