@@ -319,6 +319,14 @@ std::string whole_text(const DiffResult& result) {
   return printable(counts_and_first(result), kMostCause) + ".";
 }
 
+/// The beginning of the first item's cause, for a screen that has no room for items beside the
+/// list; nothing where whole_text() is empty.
+std::string first_cause(const DiffResult& result) {
+  constexpr std::size_t kMost = 240;  // Five lines of a phone.
+  if (whole_text(result).empty()) return "";
+  return printable(result.items.front().judgement.cause, kMost);
+}
+
 /// The names of two paths without the folders that they share: "a/b" and "a/c" are "b" and "c".
 std::pair<std::string, std::string> distinct_names(const std::string& a, const std::string& b) {
   std::size_t shared = 0;
@@ -338,6 +346,7 @@ std::string diff_html(const DiffResult& result, const std::vector<ShownImages>& 
   page.set("verdict", std::string(name(result.judgement.verdict)));
   page.set("label", std::string(label(result.judgement.verdict)));
   page.set("whole", text_or_false(whole_text(result)));
+  page.set("first_cause", text_or_false(first_cause(result)));
   page.set("compared", counted(std::ssize(result.items), "item"));
   const auto [baseline, current] = distinct_names(shown_baseline(result), shown_current(result));
   page.set("baseline_name", page_text(printable(baseline, kMostPath)));
