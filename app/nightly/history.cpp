@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "app/nightly/history_report.hpp"
+#include "app/nightly/nightly_folders.hpp"
 #include "app/nightly/nightly_outputs.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
@@ -17,7 +18,6 @@
 #include "core/base/files/paths.hpp"
 #include "core/base/text/words.hpp"
 #include "core/json/json_text.hpp"
-#include "core/records/studies/folder_lock.hpp"
 #include "reports/history/finding_groups.hpp"
 #include "reports/history/history_export.hpp"
 #include "reports/history/history_prune.hpp"
@@ -96,7 +96,7 @@ void write_pages_again(HistoryStore& history, const HistoryArguments& arguments,
 }
 
 FolderLock locked(const HistoryArguments& arguments, const Console& console) {
-  return FolderLock(arguments.store, [&] {
+  return lock_store(arguments.store, arguments.store, [&] {
     console.warning(arguments.store + ": a nightly run is being made in it; waiting for its end");
   });
 }

@@ -30,7 +30,6 @@
 #include "core/base/text/retired_names.hpp"
 #include "core/base/version.hpp"
 #include "core/json/record_writer.hpp"
-#include "core/records/studies/folder_lock.hpp"
 #include "core/records/value_fields.hpp"
 #include "reports/history/history_export.hpp"
 #include "reports/history/history_prune.hpp"
@@ -370,7 +369,7 @@ NightlyEnd make_nightly_run(const NightlyArguments& arguments, NightlyRequests r
   const SessionNames names{invocation.command, invocation.disclosure.host()};
   const TestedCommit commit = measured_commit(arguments.commit, requests.commit);
   make_folder(store);
-  const FolderLock lock(store, [&] {
+  const FolderLock lock = lock_store(store, outputs.out, [&] {
     console.warning(store.string() +
                     ": another mapproof runs in it; waiting, since two at once would spoil "
                     "each other's seconds");

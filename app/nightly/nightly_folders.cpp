@@ -10,7 +10,6 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
-#include "core/records/studies/folder_lock.hpp"
 #include "reports/history/history_export.hpp"
 
 namespace mapproof {
@@ -50,6 +49,14 @@ std::vector<std::string> names_in(const fs::path& folder) {
 
 }  // namespace
 
+FolderLock lock_store(const fs::path& store, const fs::path& out,
+                      const std::function<void()>& busy) {
+  FolderLock lock(store, busy);
+  remove_leftovers(store);
+  if (std::error_code error; out != store && fs::is_directory(out, error)) remove_leftovers(out);
+  return lock;
+}
+
 int next_nightly_run(HistoryStore& history, const fs::path& store) {
   int last = history.last_number();
   std::error_code error;
@@ -70,7 +77,6 @@ void begin_nightly_run(const fs::path& folder, const std::vector<StudyRequest>& 
     if (fs::exists(folder / kRequestFile, error)) left = read_file(folder / kRequestFile);
     if (left == text) {
       console.warning(folder.string() + ": continues a nightly run that was stopped");
-      remove_leftovers(folder);
       return;
     }
     console.warning(folder.string() +

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <set>
 #include <span>
 #include <string>
@@ -8,10 +9,19 @@
 
 #include "app/console.hpp"
 #include "app/nightly/nightly_study.hpp"
+#include "core/records/studies/folder_lock.hpp"
 #include "reports/history/history_store.hpp"
 #include "reports/history/pages/index_facts.hpp"
 
 namespace mapproof {
+
+/// Locks a store, and removes what killed processes left behind in it and in the folder of its
+/// pages.
+/// @param out   Of the pages; it may be the store, or not be there yet.
+/// @param busy  Called once before a wait for another process.
+/// @throws IoError as FolderLock and remove_leftovers().
+FolderLock lock_store(const std::filesystem::path& store, const std::filesystem::path& out,
+                      const std::function<void()>& busy);
 
 /// The number this nightly run gets: after all in the history and all finished folders, so that a
 /// new history takes none again. @throws IoError.

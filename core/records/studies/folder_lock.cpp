@@ -43,10 +43,10 @@ std::optional<pid_t> writer(const fs::path& file) {
 
 /// Whether the program writes to a folder of that name, and those below it, in a folder of records.
 bool is_written(const fs::path& folder) {
-  constexpr std::array<std::string_view, 15> kNames = {
-      "runs",          "maps",           "details",      "paths",   "convergence",
-      "parts",         "errors",         "pages",        "figures", "tables",
-      "figures-paper", "figures-styled", "nightly_runs", "trends",  "objects"};
+  constexpr std::array<std::string_view, 16> kNames = {
+      "runs",         "maps",   "details", "paths",  "convergence",   "parts",
+      "errors",       "pages",  "figures", "tables", "figures-paper", "figures-styled",
+      "nightly_runs", "trends", "objects", "compare"};
   std::error_code error;  // Where nothing may be searched, nothing of the program's is.
   return std::ranges::find(kNames, folder.filename().string()) != kNames.end() ||
          fs::is_regular_file(folder / kStudyFile, error);

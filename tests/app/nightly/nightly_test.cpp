@@ -80,6 +80,28 @@ TEST(Nightly, RecordsANightlyRunAndItsReportAndFindsNothingWorseInTheNext) {
             std::string::npos);
 }
 
+TEST(Nightly, RemovesWhatAKilledOneLeftWhereverItWrote) {
+  const TemporaryFolder folder;
+  const fs::path store = folder / "history", pages = folder / "pages";
+  ASSERT_EQ(nightly_run(store, {"--out", pages}).exit_code, 0);
+  const std::string of_nobody = ".part-2147483647-0123456789abcdef";  // No process has this number.
+  std::vector<fs::path> parts;
+  for (const fs::path& written :
+       {store / "nightly_runs/0001/nightly_run.json", store / "nightly_runs/0001/small/study.json",
+        pages / "index.html", pages / "trends/small/report.html",
+        pages / "compare/0001-0002/small.html"}) {
+    parts.push_back(written.string() + of_nobody);
+    fs::create_directories(written.parent_path());
+    write_file(parts.back(), "half");
+  }
+  const fs::path of_a_user = pages / ("mine/notes.txt" + of_nobody);
+  fs::create_directories(of_a_user.parent_path());
+  write_file(of_a_user, "mine");
+  ASSERT_EQ(nightly_run(store, {"--out", pages}).exit_code, 0);
+  for (const fs::path& part : parts) EXPECT_FALSE(fs::exists(part)) << part;
+  EXPECT_TRUE(fs::exists(of_a_user)) << "no folder that the program writes";
+}
+
 TEST(Nightly, LeavesAFileThatSaysWhatItIs) {
   const TemporaryFolder folder;
   const Outcome outcome = nightly_run(folder / "h");
