@@ -408,7 +408,7 @@ TEST(Streams, APipeThatNobodyWritesToCanBeStopped) {
   ASSERT_EQ(::mkfifo((folder / "f").c_str(), 0600), 0);
   const Outcome outcome =
       shell(folder.path(),
-            "timeout -s INT 0.5 $MAPPROOF map f --incremental --sensor visibility --out out", 10.0);
+            "timeout -s INT 3 $MAPPROOF map f --incremental --sensor visibility --out out", 10.0);
   EXPECT_NE(outcome.error.find("f: holds no observations"), std::string::npos) << outcome.error;
 }
 
