@@ -186,8 +186,9 @@ async function waitForImage(image) {
 }
 
 // The small images stand beside the figure, below the words, as large as the figure's height leaves
-// room for; where that is too little, in a row below both, as far as the first screen shows it. Long
-// sentences may leave them no room on the first screen: then they are not shown.
+// room for; where that is too little, in a row below both, as far as the first screen shows it. Where
+// long sentences leave the first screen no room for all of them, the first ones are shown, a map in
+// space before all.
 function placeThumbnails() {
   const list = document.querySelector(".thumbnails"), beside = document.querySelector(".glance > .beside");
   const figure = document.querySelector(".main-figure");
@@ -199,10 +200,11 @@ function placeThumbnails() {
     return list.getBoundingClientRect().bottom <= end;
   };
   list.style.removeProperty("--columns");
-  list.hidden = false;
+  const items = [...list.children];
+  for (const element of [list, ...items]) element.hidden = false;
   beside.append(list);
   if (narrowPage.matches) return;
-  const count = list.childElementCount, kMostColumns = 3, kSlack_px = 4;
+  const count = items.length, kMostColumns = 3, kSlack_px = 4;
   const foot = figure?.getBoundingClientRect().bottom ?? 0;
   for (let columns = 1; columns < kMostColumns && columns <= count; ++columns) {
     if (put(true, columns, foot + kSlack_px)) return;
@@ -211,7 +213,12 @@ function placeThumbnails() {
   for (let columns = kMostColumns; columns <= 2 * kMostColumns; ++columns) {
     if (columns >= count && put(false, columns, screenEnd)) return;
   }
-  list.hidden = !put(true, kMostColumns, Math.max(foot, screenEnd));
+  const end = Math.max(foot, screenEnd);
+  if (put(true, kMostColumns, end)) return;
+  const inSpace = items.find((item) => item.querySelector('a[href^="#figure-scene-"]'));
+  if (inSpace) list.prepend(inSpace);
+  for (const item of items) item.hidden = item.getBoundingClientRect().bottom > end;
+  list.hidden = items.every((item) => item.hidden);
 }
 
 // The small images are placed when those that show next to nothing are left out, and when the figure

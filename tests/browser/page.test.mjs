@@ -97,6 +97,27 @@ test("long sentences take the room of the small figures, which come back with it
   await close();
 });
 
+test("where sentences leave room for some small figures, a map in space is one of them", async () => {
+  const { page, close } = await open({ viewport: { width: 1280, height: 800 } });
+  await openingPlaced(page);
+  const shown = (more_px) => page.evaluate((px) => {
+    document.querySelector(".opening .finding").style.paddingBottom = `${px}px`;
+    placeThumbnails();
+    return [...document.querySelectorAll(".thumbnails a")].map((link) =>
+      [link.checkVisibility(), link.hash.startsWith("#figure-scene-")]);
+  }, more_px);
+  let some = 0;
+  for (let more_px = 0; more_px < 800; more_px += 20) {
+    const figures = await shown(more_px);
+    const visible = figures.filter(([isVisible]) => isVisible);
+    if (visible.length === 0 || visible.length === figures.length) continue;
+    ++some;
+    assert.ok(visible.some(([, isInSpace]) => isInSpace), `${more_px}`);
+  }
+  assert.ok(some > 0);
+  await close();
+});
+
 for (const [name, folder] of kinds) {
   for (const viewport of [{ width: 1280, height: 800 }, { width: 390, height: 844 }]) {
     test(`${name}: the first screen of ${viewport.width} px cuts no words, and repeats no small figure`,
