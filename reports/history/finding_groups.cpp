@@ -212,6 +212,17 @@ std::string settings_text(const std::vector<FindingSetting>& settings) {
   return text;
 }
 
+/// "all 4 settings", "all 3 levels of laser noise".
+std::string all_text(const std::vector<FindingSetting>& settings, std::size_t count) {
+  const std::optional<ShownLevel> first = only_level(settings.front());
+  const bool are_levels = std::ranges::all_of(settings, [&](const FindingSetting& setting) {
+    const auto level = only_level(setting);
+    return !setting.parameter && level && first && level->name == first->name;
+  });
+  return are_levels ? fmt::format("all {} levels of {}", count, first->name)
+                    : fmt::format("all {} settings", count);
+}
+
 std::string amount(double change) {
   if (std::abs(change) > kMostPercent) return change > 0 ? "over +1,000,000" : "below −1,000,000";
   return fmt::format("{}{:.{}f}", change < 0 ? "−" : "+", std::abs(change),
@@ -352,9 +363,8 @@ std::string FindingGroup::change_of_settings() const {
   std::set<std::string> distinct;
   for (const FindingSetting& setting : settings) distinct.insert(setting.shown);
   const bool are_all = distinct.size() >= kFewest && distinct.size() == settings_of_method;
-  return fmt::format(
-      "{} ({})", change_text(),
-      are_all ? fmt::format("all {} settings", distinct.size()) : settings_text(settings));
+  return fmt::format("{} ({})", change_text(),
+                     are_all ? all_text(settings, distinct.size()) : settings_text(settings));
 }
 
 std::string FindingGroup::headline() const { return method + ": " + change_of_settings(); }
