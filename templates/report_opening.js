@@ -51,6 +51,12 @@ function cropped(text) {
 // The drawing as a narrow page shows it (see report_stack.js), for a box of that width and, if it can
 // be, of that height. Returns what to show, and the notes that are left out.
 function narrowed(text, width_px, height_px) {
+  const shown = arrangedIn(text, width_px, height_px), excess_px = shown.height_px - height_px;
+  // Only what is drawn shows how high its legend is.
+  return excess_px > 0 ? arrangedIn(text, width_px, height_px - excess_px) : shown;
+}
+
+function arrangedIn(text, width_px, height_px) {
   const box = document.createElement("div");
   box.className = "measured";
   box.style.width = `${width_px}px`;
@@ -59,6 +65,7 @@ function narrowed(text, width_px, height_px) {
   const svg = box.firstChild, parts = partsOf(svg);
   const arrangement = arrangementOf(svg, parts, width_px, height_px);
   const notes = arrangement ? wordsOfParts(parts, ["note"]) : [];
+  let drawn_px = 0;
   if (arrangement) {
     const whole = stack(svg, parts, arrangement);
     // What is too high gets smaller, as far as its words can be read.
@@ -70,9 +77,11 @@ function narrowed(text, width_px, height_px) {
     for (const hidden of svg.querySelectorAll(".off")) hidden.remove();
     svg.setAttribute("width", whole.width);
     svg.setAttribute("height", whole.height);
+    drawn_px = whole.height * width_px / whole.width;
   }
   box.remove();
-  return { text: arrangement ? new XMLSerializer().serializeToString(svg) : text, notes };
+  return { text: arrangement ? new XMLSerializer().serializeToString(svg) : text, notes,
+    height_px: drawn_px };
 }
 
 const kLeastOpening_px = 9;  // Of words in the figure of the first screen.
