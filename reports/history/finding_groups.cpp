@@ -357,14 +357,18 @@ std::string FindingGroup::change_text() const {
                      is_unchanged ? "unchanged" : change);
 }
 
-std::string FindingGroup::change_of_settings() const {
-  if (settings.empty()) return change_text();
+bool FindingGroup::has_all_settings() const {
   constexpr std::size_t kFewest = 3;  // The names of two are as short.
   std::set<std::string> distinct;
   for (const FindingSetting& setting : settings) distinct.insert(setting.shown);
-  const bool are_all = distinct.size() >= kFewest && distinct.size() == settings_of_method;
-  return fmt::format("{} ({})", change_text(),
-                     are_all ? all_text(settings, distinct.size()) : settings_text(settings));
+  return distinct.size() >= kFewest && distinct.size() == settings_of_method;
+}
+
+std::string FindingGroup::change_of_settings() const {
+  if (settings.empty()) return change_text();
+  return fmt::format(
+      "{} ({})", change_text(),
+      has_all_settings() ? all_text(settings, settings_of_method) : settings_text(settings));
 }
 
 std::string FindingGroup::headline() const { return method + ": " + change_of_settings(); }

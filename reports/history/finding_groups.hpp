@@ -93,6 +93,8 @@ struct FindingGroup {
   /// "MPE +17.6 %", "seconds +12.0 to +14.1 %", "results are lost"; of an error that got worse in
   /// pairs of runs alone "MPE got worse in pairs of runs, its median −0.3 %".
   std::string change_text() const;
+  /// Whether the method has three settings or more, and all of them are here.
+  bool has_all_settings() const;
   /// "MPE +17.6 % (K = 6 and 8)", "MPE +17.6 % (all 4 settings)" where three or more are all.
   std::string change_of_settings() const;
   /// "ISOMAP: MPE +17.6 % (K = 6 and 8)".

@@ -30,8 +30,11 @@ std::string sentence_of(const FindingGroup& group, std::size_t all) {
   std::string text = group.setup.empty() ? "" : group.setup + ", ";
   text += group.headline();
   if (const std::string values = group.values_text(); !values.empty()) text += " (" + values + ")";
-  const std::string count =
-      group.known ? group.count_text() : share_words(group.numbers.size(), all);
+  // The words on all settings have the number of findings.
+  const bool is_counted = group.has_all_settings() && group.numbers.size() == group.settings.size();
+  const std::string count = group.known  ? group.count_text()
+                            : is_counted ? ""
+                                         : share_words(group.numbers.size(), all);
   if (!count.empty()) text += " (" + count + ")";
   text += ", " + group.commits.words();
   if (group.commits.has_commits()) text += ": git log " + group.commits.text();

@@ -96,7 +96,8 @@ test("as many findings are listed as the title counts, and the curve is red", of
   const [, count] = title.match(/: (\d+) findings?$/);
   const items = await page.locator(".standing li").allInnerTexts();
   const listed = items.map((item) => /both findings/.test(item) ? 2
-    : Number(item.match(/(\d+) (?:of the \d+ |more )?findings/)?.[1] ?? 1));
+    : Number(item.match(/(\d+) (?:of the \d+ |more )?findings/)?.[1] ??
+      item.match(/all (\d+) (?:settings|levels)/)?.[1] ?? 1));
   assert.equal(listed.reduce((sum, one) => sum + one), Number(count), items.join("\n"));
   const row = page.locator("#table-studies tbody tr").first();
   assert.equal(await row.locator("svg.curve circle").first().getAttribute("class"), "worse");
