@@ -102,7 +102,7 @@ function thinLabels(svg, labels) {
   });
 }
 
-// What moves words that would end right of the frame back into it, as far as there is room.
+// What moves words that end right of the frame back into it, as far as there is room.
 function backInto(frame, x, width) {
   const over = x + width - frame.right;
   return over <= 0 ? 0 : Math.max(-over, Math.min(0, frame.x - x));
@@ -134,9 +134,7 @@ function narrowPart(svg, part, { before, after, across, down, at, marks }) {
         : { x: middle.x > before.right ? after.right - before.right : 0, y: at(middle).y - middle.y };
     } else {
       shift = shiftOfWords(words, box, marks, before, after, at);
-      if (kindOf(part) === "mark-label" && box.x + box.width <= before.right) {
-        shift.x += backInto(after, box.x + shift.x, box.width);
-      }
+      if (kindOf(part) === "mark-label") shift.x += backInto(after, box.x + shift.x, box.width);
     }
     moveWords(svg, words, shift.x, shift.y);
   }

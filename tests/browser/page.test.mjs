@@ -509,18 +509,6 @@ test("a figure that got narrower on a phone keeps its data where its axes count 
   wide.forEach((share, i) => assert.ok(Math.abs(share - narrow[i]) < .01, `${share} ${narrow[i]}`));
 });
 
-test("on a phone every method keeps its name beside a diagram of ranks", async () => {
-  const { page, close } = await open({ viewport: { width: 390, height: 844 } });
-  const shown = await figure(page, "ranks-bearing");
-  const names = await shown.locator(".drawing > svg").evaluate((svg) => (
-    [...svg.querySelectorAll('.mark-label g[transform*="scale("]')]
-      .filter((words) => / \d+\.\d\d$/.test(words.dataset.words))
-      .map((words) => [words.dataset.words, words.getBoundingClientRect().width])));
-  assert.ok(names.length >= 4, `${names.length}`);
-  assert.deepEqual(names.filter(([, width]) => width === 0), []);
-  await close();
-});
-
 test("on a phone the tick labels of a y axis end at one line, the lowest one, too", async () => {
   const { page, close } = await open({ viewport: { width: 390, height: 844 } });
   const shown = await figure(page, "fig-4");
