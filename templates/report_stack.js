@@ -1,5 +1,5 @@
 // On a narrow page the panels of a drawing stand one below the other, or as many side by side as
-// have words of a readable size. They get as wide as there is room for (see report_narrow.js). The
+// have words of a readable size; those that are too wide get narrower (see report_narrow.js). The
 // heading is text of the page, and legends are below (see report_stack_legend.js).
 
 const kLeastWords_px = 10, kUnitsOfFont = 2048;
@@ -27,7 +27,7 @@ function addDrawnTitle(svg, parts) {
   svg.parentElement.before(title);
 }
 
-// The greatest width that the heading of a panel needs, what stands left of its frame included.
+// The greatest width that the heading of a panel needs, with what stands left of its frame.
 function headingRoom(svg, parts, { left }) {
   const ends = parts.panels.flatMap((panel, i) => panel.filter((part) => kindOf(part) === "panel-title")
     .map((part) => boxIn(svg, part)).map(({ x, width }) => x + width - parts.frames[i].x));
@@ -35,10 +35,10 @@ function headingRoom(svg, parts, { left }) {
 }
 
 // How many panels stand side by side in `most`. One more than fit as they are drawn do so where that
-// changes their width less than fewer panels would, and where each is wider than `least`.
-function columnsOf(count, most, width, least) {
+// changes their width less than fewer panels would, and where their headings have the room.
+function columnsOf(count, most, width, heading) {
   const fitting = Math.max(1, Math.floor(most / width)), nearest = Math.round(most / width);
-  return Math.min(count, nearest > fitting && most / nearest > least ? nearest : fitting);
+  return Math.min(count, nearest > fitting && most / nearest >= heading ? nearest : fitting);
 }
 
 // How the panels are arranged in a box of that width, and if they can be in one of that height; null
@@ -54,8 +54,7 @@ function arrangementOf(svg, parts, width_px, height_px = Infinity) {
   const around = { width: rooms.left + rooms.right, height: rooms.above + rooms.below };
   if (most <= around.width) return null;  // No room for a frame.
   const columns = columnsOf(parts.panels.length, most,
-    Math.min(most, greatest("width") + around.width),
-    Math.max(around.width, headingRoom(svg, parts, rooms)));  // Each frame has room.
+    Math.min(most, greatest("width") + around.width), headingRoom(svg, parts, rooms));
   const rows = Math.ceil(parts.panels.length / columns);
   const kLegend_px = 60;
   const row = (height_px - kLegend_px) * most / width_px / rows;

@@ -476,18 +476,6 @@ test("on a phone the smallest words have 10 px in every figure of several panels
   await close();
 });
 
-test("panels stand side by side only where their frames and headings have room", async () => {
-  const { page, close } = await open({ viewport: { width: 390, height: 844 } });
-  const columns = (...given) => page.evaluate((all) => columnsOf(...all), given);
-  assert.equal(await columns(4, 380, 200, 100), 2);  // Nearer to two panels of 200 than to one.
-  assert.equal(await columns(4, 280, 200, 100), 1);
-  assert.equal(await columns(4, 320, 200, 170), 1);  // With two, each had 160.
-  assert.equal(await columns(4, 320, 200, 160), 1);  // Frames would have no width.
-  assert.equal(await columns(1, 900, 200, 100), 1);
-  assert.equal(await columns(4, 100, 100, 90), 1);
-  await close();
-});
-
 test("a figure that got narrower on a phone keeps its data where its axes count them", async () => {
   const shares = async (options) => {
     const { page, close } = await open(options);
