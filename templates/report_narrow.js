@@ -1,14 +1,14 @@
-// On a narrow page frames get as wide as it has room for, with their ticks, marks and words: lines and
+// Frames that are wider than a narrow page get narrower, with their ticks, marks and words: lines and
 // words keep their size. Maps and images keep their proportions.
 
-const widths = new WeakMap();  // An <svg> with such frames → what to put back: attributes and frames.
+const widths = new WeakMap();  // A narrowed <svg> → what to put back: attributes and frames.
 
 function keepAndSet(svg, element, name, value) {
   widths.get(svg).attributes.push([element, name, element.getAttribute(name)]);
   element.setAttribute(name, value);
 }
 
-// Undoes fitFrames().
+// Undoes narrowFrames().
 function widenFrames(svg, parts) {
   const kept = widths.get(svg);
   if (!kept) return;
@@ -158,22 +158,18 @@ function lowestShare(svg, parts, owners, i, height) {
     leastShare(svg, tickLabelsOf(parts.panels[i], frame)));
 }
 
-// Makes frames as wide as `most` leaves them with what is around them, no map higher than `height`
-// for it; those whose axes have scales of their own also as low as `height`, if that is less.
-function fitFrames(svg, parts, rooms, most, height) {
+// Makes frames so narrow that they need no more than `most` with what is around them; those whose
+// axes have scales of their own also as low as `height`, if that is less.
+function narrowFrames(svg, parts, rooms, most, height = Infinity) {
   widths.set(svg, { attributes: [], frames: parts.frames.map((frame) => ({ ...frame })) });
   const room = most - rooms.left - rooms.right;
   const owners = parts.axes.map((label) => frameOfLabel(label, parts.frames));  // Before any moves.
   // Frames that share an axis have its labels beside one of them: all get as low as that one can.
   const lowest = height === Infinity ? 1 : Math.max(
     ...parts.frames.map((frame, i) => lowestShare(svg, parts, owners, i, height)));
-  const greatest = (name) => Math.max(...parts.frames.map((frame) => frame[name]));
-  const widest = Math.max(1, room / greatest("width"));
-  const widestMap = Math.min(widest, Math.max(1, height / greatest("height")));
   parts.frames.forEach((frame, i) => {
-    const panel = parts.panels[i], isMap = hasOneScale(panel, frame);
-    const across = Math.min(isMap ? widestMap : widest, room / frame.width);
-    const down = isMap ? across : height < frame.height ? lowest : 1;
+    const across = Math.min(1, room / frame.width), panel = parts.panels[i];
+    const down = hasOneScale(panel, frame) ? across : height < frame.height ? lowest : 1;
     const before = { ...frame };
     const at = ({ x, y }) => ({ x: before.x + across * (x - before.x),
       y: before.y + down * (y - before.y) });

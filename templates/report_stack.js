@@ -27,23 +27,8 @@ function addDrawnTitle(svg, parts) {
   svg.parentElement.before(title);
 }
 
-// The greatest width that the heading of a panel needs, with what stands left of its frame.
-function headingRoom(svg, parts, { left }) {
-  const ends = parts.panels.flatMap((panel, i) => panel.filter((part) => kindOf(part) === "panel-title")
-    .map((part) => boxIn(svg, part)).map(({ x, width }) => x + width - parts.frames[i].x));
-  return left + Math.max(0, ...ends);
-}
-
-// How many panels stand side by side in `most`. One more than fit as they are drawn do so where that
-// changes their width less than fewer panels would, and where their headings have the room.
-function columnsOf(count, most, width, heading) {
-  const fitting = Math.max(1, Math.floor(most / width)), nearest = Math.round(most / width);
-  return Math.min(count, nearest > fitting && most / nearest >= heading ? nearest : fitting);
-}
-
 // How the panels are arranged in a box of that width, and if they can be in one of that height; null
-// if they are to stay as they are drawn. Words are as large in all drawings, and so panels of curves
-// are as high as they are drawn, however many stand side by side.
+// if they are to stay as they are drawn.
 function arrangementOf(svg, parts, width_px, height_px = Infinity) {
   if (parts.panels.length === 0 || !(width_px > 0)) return null;
   const most = width_px * leastWords(svg) / kLeastWords_px;
@@ -53,14 +38,15 @@ function arrangementOf(svg, parts, width_px, height_px = Infinity) {
   const greatest = (name) => Math.max(...parts.frames.map((frame) => frame[name]));
   const around = { width: rooms.left + rooms.right, height: rooms.above + rooms.below };
   if (most <= around.width) return null;  // No room for a frame.
-  const columns = columnsOf(parts.panels.length, most,
-    Math.min(most, greatest("width") + around.width), headingRoom(svg, parts, rooms));
+  const width = Math.min(most, greatest("width") + around.width);
+  const columns = Math.max(1, Math.min(parts.panels.length, Math.floor(most / width)));
   const rows = Math.ceil(parts.panels.length / columns);
   const kLegend_px = 60;
-  const row = (height_px - kLegend_px) * most / width_px / rows;
-  fitFrames(svg, parts, rooms, most / columns, row - around.height);
-  return { rooms, columns, width: greatest("width") + around.width,
-    height: greatest("height") + around.height };
+  const row = (height_px - kLegend_px) * columns * width / width_px / rows;
+  if (greatest("width") + around.width > most || greatest("height") + around.height > row) {
+    narrowFrames(svg, parts, rooms, most, row - around.height);
+  }
+  return { rooms, columns, width, height: greatest("height") + around.height };
 }
 
 // Makes the drawing as wide as its box, in place of a box to be moved sideways.

@@ -465,17 +465,6 @@ test("on a phone no figure is moved sideways, and its words have 10 px at least"
   await close();
 });
 
-test("on a phone the smallest words have 10 px in every figure of several panels", async () => {
-  const { page, close } = await open({ viewport: { width: 390, height: 844 } });
-  for (const id of ["published-errors", "forming-bearing", "maps-bearing", "spectrum-bearing"]) {
-    const shown = await figure(page, id);
-    const words = await shown.locator(".drawing > svg").evaluate(
-      (svg) => leastWords(svg) * svg.clientWidth / viewBoxOf(svg).width);
-    assert.ok(Math.abs(words - 10) < .1, `${id}: ${words} px`);
-  }
-  await close();
-});
-
 test("a figure that got narrower on a phone keeps its data where its axes count them", async () => {
   const shares = async (options) => {
     const { page, close } = await open(options);
