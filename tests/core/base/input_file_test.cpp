@@ -33,8 +33,10 @@ TEST(Files, AreNotThereOnlyWhereTheSystemSaysSo) {
   EXPECT_FALSE(is_there(folder / "b.txt"));
   EXPECT_FALSE(is_there(file / "b.txt"));
   std::filesystem::create_symlink("loop", folder / "loop");
+  // A message holds the first 300 characters of a long name.
   for (const std::filesystem::path& path : {folder / "loop", folder / std::string(300, 'n')})
-    EXPECT_NE(error_of([&] { is_there(path); }).find(path.string() + ": cannot be read: "),
+    EXPECT_NE(error_of([&] { is_there(path); })
+                  .find(printable(path.string(), 300) + ": cannot be read: "),
               std::string::npos)
         << path;
 }
