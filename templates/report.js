@@ -66,8 +66,9 @@ putInWhenNear(held);
 setTitlesOnPaper();  // Of all drawings, which are put in first.
 addDecisions();
 followReading();
-(globalThis.requestIdleCallback ?? setTimeout)(
-  () => addMethodList(document.querySelector(".search")));
+// When there is time, or after a second: a busy machine may have none.
+const whenIdle = globalThis.requestIdleCallback ?? setTimeout;
+whenIdle(() => addMethodList(document.querySelector(".search")), { timeout: 1000 });
 addSearch(document.querySelector(".contents"));
 addOpeningImages();  // As large as what is above them leaves room for.
 fitMainFigure();
