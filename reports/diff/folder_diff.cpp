@@ -46,8 +46,8 @@ DiffItem compare_records(const std::string& id, const fs::path& baseline, const 
   item.id = id;
   item.kind = ItemKind::kRecords;
   try {
-    item.records = record_diff(read_records(baseline, current), read_records(current, baseline),
-                               settings.records);
+    const RecordSets sets = read_records(baseline, current);
+    item.records = record_diff(sets.baseline, sets.current, settings.records);
     item.judgement = item.records->judgement;
   } catch (const IoError& error) {
     item.judgement = {Verdict::kUnreadable, true, error.what()};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <span>
 #include <string>
 #include <system_error>
@@ -139,9 +140,22 @@ RecordSet set_of(StudyContents contents) {
   return set;
 }
 
-RecordSet read_study_set(const fs::path& folder, const fs::path& other) {
+/// Below the two locations, or "" where they are files.
+using EqualFiles = std::set<fs::path>;
+
+/// Those that both sides have with equal bytes. Found once, so that both leave out the same: one
+/// that could not be opened here is read on both.
+EqualFiles equal_files(const fs::path& a, const fs::path& b) {
+  EqualFiles equal;
+  if (same_bytes(a, b)) equal.insert("");
+  for (const fs::path& file : record_files(a))
+    if (same_bytes(a / file, b / file)) equal.insert(file);
+  return equal;
+}
+
+RecordSet read_study_set(const fs::path& folder, const EqualFiles& equal) {
   const auto differs = [&](const fs::path& file) {
-    return !same_bytes(file, other / file.lexically_relative(folder));
+    return !equal.contains(file.lexically_relative(folder));
   };
   RecordSet set = set_of(read_study_contents(folder, {.maps = differs, .keeps_on = true}));
   add_settings(set, folder / "study.json");
@@ -173,10 +187,27 @@ bool is_compared(const fs::path& file) {
 }
 
 /// Lists the files that differ from those of the other side.
-void add_others(RecordSet& set, const fs::path& folder, const fs::path& other) {
+void add_others(RecordSet& set, const fs::path& folder, const EqualFiles& equal) {
   for (const fs::path& file : record_files(folder))
-    if (!is_compared(file) && !same_bytes(folder / file, other / file))
+    if (!is_compared(file) && !equal.contains(file))
       set.others[file.generic_string()] = folder / file;
+}
+
+RecordSet read_side(const fs::path& path, const EqualFiles& equal) {
+  std::error_code error;
+  RecordSet set;
+  if (has_study(path)) {
+    set = read_study_set(path, equal);
+  } else {
+    const fs::path file = single_file(path);
+    if (file.empty()) throw IoError(path.string(), "holds no records");
+    set = read_single(file);
+  }
+  if (fs::is_directory(path, error))
+    add_others(set, path, equal);
+  else if (!equal.contains(""))
+    set.others[""] = path;
+  return set;
 }
 
 }  // namespace
@@ -235,21 +266,9 @@ bool holds_records(const fs::path& path) {
   return is_single(path);
 }
 
-RecordSet read_records(const fs::path& path, const fs::path& other) {
-  std::error_code error;
-  RecordSet set;
-  if (has_study(path)) {
-    set = read_study_set(path, other);
-  } else {
-    const fs::path file = single_file(path);
-    if (file.empty()) throw IoError(path.string(), "holds no records");
-    set = read_single(file);
-  }
-  if (fs::is_directory(path, error))
-    add_others(set, path, other);
-  else if (!same_bytes(path, other))
-    set.others[""] = path;
-  return set;
+RecordSets read_records(const fs::path& baseline, const fs::path& current) {
+  const EqualFiles equal = equal_files(baseline, current);
+  return {.baseline = read_side(baseline, equal), .current = read_side(current, equal)};
 }
 
 }  // namespace mapproof

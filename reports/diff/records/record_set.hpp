@@ -71,10 +71,15 @@ struct RecordSet {
 /// map.json or a slam.json.
 bool holds_records(const std::filesystem::path& path);
 
-/// Reads the records of a folder or a file. A file of a study that cannot be read is listed as a
-/// problem; the others are read.
-/// @param other  The other side: maps and details with equal bytes there are left out.
-/// @throws IoError if there are no records, or if the file that states their kind cannot be read.
-RecordSet read_records(const std::filesystem::path& path, const std::filesystem::path& other);
+/// Of both sides of a comparison.
+struct RecordSets {
+  RecordSet baseline, current;
+};
+
+/// Reads the records of two folders or files. A file of a study that cannot be read is listed as a
+/// problem; the others are read. Maps and details with equal bytes on both sides are left out.
+/// @throws IoError if a side has no records, or if the file that states their kind cannot be read.
+RecordSets read_records(const std::filesystem::path& baseline,
+                        const std::filesystem::path& current);
 
 }  // namespace mapproof

@@ -370,7 +370,8 @@ TEST(RecordDiff, OneMoreStepOfAMapIsASettingAndNoOtherRecord) {
     return folder / name;
   };
   const auto before = map_of("a/map.json", 1000, 0.1), after = map_of("b/map.json", 1001, 0.2);
-  const RecordDiff diff = record_diff(read_records(before, after), read_records(after, before));
+  const RecordSets sets = read_records(before, after);
+  const RecordDiff diff = record_diff(sets.baseline, sets.current);
   EXPECT_TRUE(diff.missing_subjects.empty() && diff.new_subjects.empty());
   ASSERT_EQ(diff.settings.size(), 1U);
   EXPECT_EQ(diff.settings[0].pointer, "/steps");

@@ -41,8 +41,8 @@ RecordDiff diff_of(double mpe_m, double found) {
   const test::TemporaryFolder folder;
   write_study(folder / "a", 0.1, 90.0);
   write_study(folder / "b", mpe_m, found);
-  return record_diff(read_records(folder / "a", folder / "b"),
-                     read_records(folder / "b", folder / "a"));
+  const RecordSets sets = read_records(folder / "a", folder / "b");
+  return record_diff(sets.baseline, sets.current);
 }
 
 TEST(TopicRecords, OfEqualStudiesAreIdentical) {
@@ -91,7 +91,7 @@ TEST(TopicRecords, ThatAreDamagedAreAProblemAndTheRestGoesOn) {
   write_study(folder / "a", 0.1, 90.0);
   write_study(folder / "b", 0.1, 90.0);
   folder.file("b/parts/layout-2-pose-1.json", "{");
-  const RecordSet set = read_records(folder / "b", folder / "a");
+  const RecordSet set = read_records(folder / "a", folder / "b").current;
   ASSERT_EQ(set.problems.size(), 1U);
   EXPECT_EQ(set.problems[0].file, "parts/layout-2-pose-1.json");
   EXPECT_EQ(set.values.at({"all/joint", "mpe_m"}).size(), 1U);
