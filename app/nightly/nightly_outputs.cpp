@@ -77,12 +77,6 @@ void judge_found(const std::vector<FindingGroup>& groups, const std::string& stu
           comparison.outcome = Outcome::kWorse;
 }
 
-/// Why a finding may have no p in a table of scores.
-constexpr const char* kTwoRules =
-    " Nightly runs test the change of each method in percent, or in points: by Wilcoxon's "
-    "signed-rank test, or by Student's t where there are few runs or groups. The p below are those "
-    "of the signed-rank test, which needs six.";
-
 /// Gives a comparison the verdict of the nightly run: one rule judges a nightly run and the page
 /// that shows why.
 void judge_as_nightly_run(const NightlyPair& pair, const std::string& study, DiffResult& result) {
@@ -90,7 +84,6 @@ void judge_as_nightly_run(const NightlyPair& pair, const std::string& study, Dif
   if (standing.sentences.empty()) return;
   std::string cause = standing.title + ":";
   for (const std::string& sentence : standing.sentences) cause += " " + sentence;
-  cause += kTwoRules;
   for (DiffItem& item : result.items)
     if (item.records) judge_found(pair.groups, study, *item.records);
   judge_records_as(result, {Verdict::kWorse, true, cause});

@@ -21,6 +21,13 @@ bool takes_ranks(int units, const PairedChangeOptions& options) {
   return least_signed_rank_p(units) <= options.finest_p;
 }
 
+bool are_equal(std::span<const double> differences) {
+  constexpr double kShare = 0.005;
+  const auto [least, most] = std::ranges::minmax(differences);
+  const double largest = std::max(std::abs(least), std::abs(most));
+  return largest > 0.0 && most - least <= kShare * largest;
+}
+
 /// How many Walsh averages lie outside the interval at either end, by the normal limit of the rank
 /// sum [conover1999].
 std::size_t averages_left_out(double n, double confidence) {
@@ -84,7 +91,7 @@ class WalshAverages {
 
 void judge_by_ranks(std::span<const double> differences, double confidence, PairedChange& change) {
   change.by_ranks = true;
-  change.p = signed_rank_test(differences).p;  // Before the averages take their memory.
+  change.p = change.ranks.p;
   const WalshAverages averages(differences);
   change.shift = averages.median();
   const std::size_t out =
@@ -129,7 +136,9 @@ PairedChange paired_change(std::span<const double> differences,
     throw InvalidInput("paired_change: confidence must lie between 0 and 1");
   if (!std::ranges::all_of(differences, [](double value) { return std::isfinite(value); }))
     throw InvalidInput("paired_change: a difference is not finite");
-  PairedChange change{.units = static_cast<int>(differences.size())};
+  PairedChange change{.units = static_cast<int>(differences.size()),
+                      .equal = are_equal(differences),
+                      .ranks = signed_rank_test(differences)};
   if (takes_ranks(change.units, options))
     judge_by_ranks(differences, options.confidence, change);
   else

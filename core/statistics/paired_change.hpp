@@ -2,6 +2,8 @@
 
 #include <span>
 
+#include "core/statistics/signed_rank.hpp"
+
 namespace mapproof {
 
 /// By how much paired values changed, with an interval.
@@ -12,6 +14,11 @@ struct PairedChange {
   double high = 0.0;
   double p = 1.0;         ///< Two-sided, of no change; 1 of a single unit that differs or not.
   bool by_ranks = false;  ///< Wilcoxon's test; else Student's t.
+  bool equal = false;     ///< All differences are the same, none 0, but for 0.5 % of the largest.
+  SignedRankTest ranks = {};  ///< Of the same differences, whichever test judges them.
+
+  /// Of equal differences Student's t has no p: it would be 0, however few they are.
+  bool has_p() const { return by_ranks || !equal; }
 };
 
 /// Which test paired differences are judged by.

@@ -43,12 +43,16 @@ template <typename Visitor>
 void fields(Visitor& v, PairedTest& paired) {
   using namespace record_rules;
   v.field("unit", paired.unit, {.description = "layout, group or run."});
-  v.field("pairs", paired.test.pairs, kMany);
-  v.field("nonzero", paired.test.nonzero, kMany);
-  v.field("exact", paired.test.exact);
-  v.field("p", paired.test.p, {.minimum = 0.0, .maximum = 1.0});
+  v.field("pairs", paired.change.units, kMany);
+  v.field("nonzero", paired.change.ranks.nonzero, kMany);
+  v.field("by_ranks", paired.change.by_ranks,
+          {.description = "Wilcoxon's signed-rank test; else Student's t test."});
+  v.field("equal", paired.change.equal,
+          {.description = "The changes are equal: Student's t test has no p, p is 0."});
+  v.field("exact", paired.change.ranks.exact, {.description = "The p of the signed-rank test."});
+  v.field("p", paired.change.p, {.minimum = 0.0, .maximum = 1.0});
   v.field("p_corrected", paired.p, {.minimum = 0.0, .maximum = 1.0});
-  v.field("effect", paired.test.effect, {.minimum = -1.0, .maximum = 1.0});
+  v.field("effect", paired.change.ranks.effect, {.minimum = -1.0, .maximum = 1.0});
 }
 
 template <typename Visitor>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <iterator>
 #include <limits>
 #include <set>
@@ -15,8 +14,7 @@
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
-#include "core/statistics/paired_change.hpp"
-#include "core/statistics/signed_rank.hpp"
+#include "core/statistics/paired_runs.hpp"
 #include "reports/history/regression_rules.hpp"
 #include "reports/history/shown_names.hpp"
 #include "reports/model/format.hpp"
@@ -24,20 +22,14 @@
 namespace mapproof {
 namespace {
 
-/// A ratio below which both errors count as nothing.
-constexpr double kLeastError = 1e-9;
-
 /// One method and quantity over its steps.
 using Family = std::tuple<std::string, std::string, std::string>;
 
-/// By how much one value of a run got worse. 16 bytes: a nightly run may have 10^7.
-struct RunDifference {
-  Name run = {}, unit = {};
-  double value = 0.0;
+/// By how much values got worse, in ascending order of the runs, those of one run step by step.
+struct RunDifferences {
+  std::vector<RunChange> changes = {};
+  bool differ = false;  ///< One by more than rounding may.
 };
-
-/// In ascending order of the runs, those of one run step by step.
-using RunDifferences = std::vector<RunDifference>;
 
 /// What one test is of.
 struct Comparison {
@@ -45,10 +37,9 @@ struct Comparison {
   std::string shown = {};   ///< The subject, for readers.
   std::string method = {};  ///< method_of() its series.
   const Quantity* quantity = nullptr;
-  std::vector<double> differences = {};  ///< One a unit.
-  std::string unit = {};                 ///< "layout", "group", "run".
-  bool has_steps = false;                ///< The medians are of the last.
-  double before = 0.0, after = 0.0;      ///< Medians.
+  PairedUnits units = {};            ///< By how much each got worse.
+  bool has_steps = false;            ///< The medians are of the last.
+  double before = 0.0, after = 0.0;  ///< Medians.
 };
 
 struct Losses {
@@ -67,14 +58,6 @@ struct Vanished {
   int series = 0;
 };
 
-/// By how much a value got worse: in points, or the logarithm of a ratio.
-double difference(const Quantity& quantity, double before, double after) {
-  if (quantity.better == Better::kHigher) std::swap(before, after);
-  return quantity.nightly == NightlyRule::kPoints
-             ? after - before
-             : std::log(std::max(after, kLeastError) / std::max(before, kLeastError));
-}
-
 const RunValue* find_run(const std::vector<RunValue>& values, const Name& run) {
   const auto found = std::ranges::lower_bound(values, run, {}, &RunValue::run);
   return found != values.end() && found->run == run ? &*found : nullptr;
@@ -84,7 +67,8 @@ const RunValue* find_run(const std::vector<RunValue>& values, const Name& run) {
 /// lost as well.
 void add_step(RunDifferences& differences, Losses& losses, const Quantity& quantity,
               const std::vector<RunValue>& before, const std::vector<RunValue>& after) {
-  differences.reserve(differences.size() + std::min(before.size(), after.size()));
+  differences.changes.reserve(differences.changes.size() + std::min(before.size(), after.size()));
+  const double worse = quantity.better == Better::kHigher ? -1.0 : 1.0;
   for (const RunValue& old : before) {
     const RunValue* now = find_run(after, old.run);
     const bool had = std::isfinite(old.value);
@@ -93,46 +77,12 @@ void add_step(RunDifferences& differences, Losses& losses, const Quantity& quant
     losses.lost += had && !has;
     losses.gained += !had && has;
     if (!had || !has) continue;
-    differences.push_back({old.run, old.unit, difference(quantity, old.value, now->value)});
+    const double change = value_change(changes_in_points(quantity), old.value, now->value);
+    differences.changes.push_back({old.run, old.unit, worse * change});
+    differences.differ = differences.differ || !quantity.rounding.holds(old.value, now->value);
   }
   for (const RunValue& now : after)
     losses.gained += std::isfinite(now.value) && find_run(before, now.run) == nullptr;
-}
-
-/// How many different names there are.
-std::size_t count_of(std::vector<std::uint32_t> ids) {
-  std::ranges::sort(ids);
-  return ids.size() - std::ranges::unique(ids).size();
-}
-
-/// Means of each run, or of each group: where groups are drawn, or where there are enough.
-/// @return With what they are of.
-std::pair<std::vector<double>, const char*> unit_means(RunDifferences differences,
-                                                       int least_layouts, bool draws_groups) {
-  std::vector<std::uint32_t> ids;
-  ids.reserve(differences.size());
-  const auto count = [&](Name RunDifference::*name) {
-    ids.clear();
-    for (const RunDifference& one : differences) ids.push_back((one.*name).id());
-    return count_of(ids);
-  };
-  const std::size_t runs = count(&RunDifference::run), groups = count(&RunDifference::unit);
-  std::vector<std::uint32_t>().swap(ids);
-  const bool by_group =
-      groups < runs && (draws_groups || std::cmp_greater_equal(groups, least_layouts));
-  Name RunDifference::*const of = by_group ? &RunDifference::unit : &RunDifference::run;
-  if (by_group) std::ranges::stable_sort(differences, {}, of);
-  std::vector<double> means;
-  means.reserve(by_group ? groups : runs);
-  for (auto first = differences.begin(); first != differences.end();) {
-    const Name unit = (*first).*of;
-    double sum = 0.0;
-    int values = 0;
-    for (; first != differences.end() && (*first).*of == unit; ++first, ++values)
-      sum += first->value;
-    means.push_back(sum / values);
-  }
-  return {means, !by_group ? "run" : draws_groups ? "group" : "layout"};
 }
 
 /// All that this nightly run and the reference have in common.
@@ -144,45 +94,46 @@ struct Work {
   std::set<std::string> other_runs;  ///< Methods that have no run in common.
 };
 
-void add_family(Work& work, const StudyEvidence& evidence, const RegressionRules& rules,
+void add_family(Work& work, const StudyEvidence& evidence,
                 const std::vector<const SeriesId*>& steps) {
   const Quantity& quantity = evidence.trend.quantities.at(steps.front()->quantity);
   const StudyLabels& labels = evidence.trend.labels;
   const std::string method = method_of(*steps.back());
   const std::string shown = shown_method_of(labels, *steps.back());
   Losses losses{method, shown, &quantity};
+  const bool has_steps = steps.size() > 1;
+  bool has_any = false;
   RunDifferences all, last;
   for (const SeriesId* series : steps) {
     const auto& before = evidence.reference->scores.at(*series);
     const auto& after = evidence.this_run.at(*series);
-    const std::size_t of_others = all.size();
-    add_step(all, losses, quantity, before, after);
-    if (series == steps.back() && steps.size() > 1)
-      last.assign(all.begin() + static_cast<std::ptrdiff_t>(of_others), all.end());
+    last = {};
+    add_step(last, losses, quantity, before, after);
+    has_any = has_any || !last.changes.empty();
+    if (!has_steps) continue;
+    all.changes.insert(all.changes.end(), last.changes.begin(), last.changes.end());
+    all.differ = all.differ || last.differ;
   }
-  const bool has_any = !all.empty();
   const auto add = [&](RunDifferences differences, const std::string& subject,
                        const std::string& shown_as) {
-    if (differences.empty()) return;
-    Comparison comparison{.subject = subject,
-                          .shown = shown_as,
-                          .method = method,
-                          .quantity = &quantity,
-                          .has_steps = steps.back()->step != 0};
-    std::tie(comparison.differences, comparison.unit) =
-        unit_means(std::move(differences), rules.least_layouts, evidence.draws_groups);
+    if (differences.changes.empty()) return;
+    Comparison comparison{
+        .subject = subject,
+        .shown = shown_as,
+        .method = method,
+        .quantity = &quantity,
+        .units = paired_units(std::move(differences.changes), evidence.draws_groups),
+        .has_steps = steps.back()->step != 0};
     comparison.before = known_median(evidence.reference->scores.at(*steps.back()));
     comparison.after = known_median(evidence.this_run.at(*steps.back()));
-    if (std::cmp_less(comparison.differences.size(), rules.least_units))
+    if (std::cmp_less(comparison.units.changes.size(), kLeastUnits))
       work.too_few.insert(shown);
-    else
+    else if (differences.differ)
       work.comparisons.push_back(std::move(comparison));
   };
-  const bool has_steps = steps.size() > 1;
-  add(std::move(has_steps ? last : all), subject_of(*steps.back()),
-      shown_subject(labels, *steps.back()));
+  add(std::move(last), subject_of(*steps.back()), shown_subject(labels, *steps.back()));
   if (has_steps) {
-    std::ranges::stable_sort(all, {}, &RunDifference::run);
+    std::ranges::stable_sort(all.changes, {}, &RunChange::run);
     const std::string mean = fmt::format(", mean of {} steps", steps.size());
     add(std::move(all), method + mean, shown + mean);
   }
@@ -241,7 +192,9 @@ void add_vanished(Work& work, const StudyEvidence& evidence) {
   }
 }
 
-Work compare_all(const StudyEvidence& evidence, const RegressionRules& rules) {
+/// Only what differs is tested: under the null hypothesis, by which both signs are equally likely,
+/// leaving out the others changes no probability.
+Work compare_all(const StudyEvidence& evidence) {
   std::map<Family, std::vector<const SeriesId*>> families;
   for (const auto& [series, values] : evidence.this_run) {
     if (!is_accuracy(rule_of(series, evidence.trend.quantities, evidence.this_run))) continue;
@@ -249,7 +202,8 @@ Work compare_all(const StudyEvidence& evidence, const RegressionRules& rules) {
     families[{series.sensor, series.method, series.quantity}].push_back(&series);
   }
   Work work;
-  for (const auto& [family, steps] : families) add_family(work, evidence, rules, steps);
+  for (const auto& [family, steps] : families) add_family(work, evidence, steps);
+  std::erase_if(work.losses, [](const Losses& one) { return one.lost + one.gained == 0; });
   add_vanished(work, evidence);
   return work;
 }
@@ -274,12 +228,6 @@ std::string change_digits(const Quantity& quantity, double change) {
              : fmt::format("{:.1f}", worse_percent(quantity, change));
 }
 
-/// Whether all units changed by the same, in the digits shown.
-bool are_equal(const Comparison& comparison) {
-  const auto [least, most] = std::ranges::minmax(comparison.differences);
-  return change_digits(*comparison.quantity, least) == change_digits(*comparison.quantity, most);
-}
-
 std::string interval_words(const Quantity& quantity, const PairedChange& change) {
   const bool in_points = quantity.nightly == NightlyRule::kPoints;
   const std::string low = change_digits(quantity, change.low),
@@ -293,12 +241,10 @@ std::string interval_words(const Quantity& quantity, const PairedChange& change)
 NightlyFinding finding_of(const Comparison& comparison, const PairedChange& change, double p,
                           std::size_t tests, const StudyEvidence& evidence) {
   const Quantity& quantity = *comparison.quantity;
-  const std::string units = counted(change.units, comparison.unit);
-  const bool equal = are_equal(comparison);
-  // By t the p of equal changes is 0, however few they are.
+  const std::string units = counted(change.units, comparison.units.unit);
   const std::string test =
-      equal && !change.by_ranks
-          ? "the changes are equal, so that no p is given"
+      !change.has_p()
+          ? std::string(kNoPWords)
           : fmt::format("{} over {}, {} corrected for {}",
                         change.by_ranks ? "Wilcoxon's signed-rank test" : "Student's t test", units,
                         small_p_words(p), counted(static_cast<long long>(tests), "test"));
@@ -310,9 +256,9 @@ NightlyFinding finding_of(const Comparison& comparison, const PairedChange& chan
           .sentence = fmt::format(
               "{}: {} {} than in nightly run {}{}; median {} → {}{}; {}", comparison.shown,
               quantity.label, worse_words(quantity, change.shift), evidence.reference->nightly_run,
-              equal ? " in each of " + units
-                    : fmt::format(" in pairs of {}s, {}", comparison.unit,
-                                  interval_words(quantity, change)),
+              change.equal ? " in each of " + units
+                           : fmt::format(" in pairs of {}s, {}", comparison.units.unit,
+                                         interval_words(quantity, change)),
               significant(comparison.before), quantity_text(comparison.after, quantity.unit),
               comparison.has_steps ? " at the last step" : "", test),
           .change = change_of(quantity, change.shift)};
@@ -411,23 +357,18 @@ RuleOutcome judge_accuracy(const StudyEvidence& evidence, const RegressionRules&
                               ": no nightly run to compare with has the same settings");
     return outcome;
   }
-  const Work work = compare_all(evidence, rules);
+  const Work work = compare_all(evidence);
   const std::size_t tests = work.comparisons.size() + work.losses.size();
   if (!work.too_few.empty())
     outcome.remarks.push_back(
         fmt::format("{}: too few {} to pair for {}; judged over nightly runs", evidence.trend.name,
                     evidence.draws_groups ? "groups" : "runs", first_of(work.too_few)));
-  // Ranks only where they can pass the correction with room to spare.
-  const PairedChangeOptions options{
-      .finest_p = 0.1 * rules.alpha / static_cast<double>(std::max<std::size_t>(tests, 1))};
-  std::vector<PairedChange> changes;
-  std::vector<double> p;
-  for (const Comparison& comparison : work.comparisons) {
-    changes.push_back(paired_change(comparison.differences, options));
-    p.push_back(changes.back().p);
-  }
-  for (const Losses& losses : work.losses) p.push_back(sign_p(losses.lost, losses.gained));
-  p = holm(p);
+  std::vector<std::span<const double>> units;
+  for (const Comparison& comparison : work.comparisons) units.push_back(comparison.units.changes);
+  std::vector<double> p_of_losses;
+  for (const Losses& losses : work.losses)
+    p_of_losses.push_back(sign_p(losses.lost, losses.gained));
+  const auto [changes, p] = test_pairs(units, p_of_losses);
   std::set<std::pair<std::string, std::string>> reported;
   for (std::size_t i = 0; i < changes.size(); ++i) {
     const Comparison& comparison = work.comparisons[i];

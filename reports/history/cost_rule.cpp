@@ -9,6 +9,7 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/statistics/intervals.hpp"
+#include "core/statistics/paired_runs.hpp"
 #include "core/statistics/robust_noise.hpp"
 #include "reports/history/accuracy_rule.hpp"
 #include "reports/history/regression_rules.hpp"
@@ -176,7 +177,7 @@ int units_of(const std::vector<RunValue>& values, bool draws_groups) {
 /// runs.
 std::vector<NightlySeries> unpaired_series(const StudyEvidence& evidence,
                                            const RegressionRules& rules) {
-  const int least = evidence.draws_groups ? rules.least_layouts : rules.least_units;
+  const int least = evidence.draws_groups ? kLeastGroups : kLeastUnits;
   std::vector<NightlySeries> series;
   for (NightlySeries& one : accuracy_series(evidence.trend, rules)) {
     int units = 0;

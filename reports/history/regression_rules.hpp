@@ -19,8 +19,6 @@ struct RegressionRules {
   double memory_floor = 0.01;
   double shortest_s =
       1e-3;               ///< Shorter parts are not judged: the resolution of the clock would be.
-  int least_units = 3;    ///< With fewer pairs a series is judged over nightly runs.
-  int least_layouts = 6;  ///< With as many or more, their means are the units.
   int least_lost = 3;     ///< Lost results of a series; fewer count if all are lost.
   double least_lost_share = 0.25;  ///< Of its results.
   int least_passing_nightly_runs =

@@ -34,6 +34,9 @@ NumberCell p_cell(double p);
 /// A p-value in prose: "p = 0.034", "p < 0.001"; of a test corrected for many, "p = 1".
 std::string p_words(double p);
 
+/// In place of the p of equal changes, see PairedChange::has_p().
+inline constexpr std::string_view kNoPWords = "the changes are equal, so that no p is given";
+
 /// That of a test at a level of kLeastP or less: "p = 3.2 × 10⁻⁷", "p < 10⁻⁹".
 std::string small_p_words(double p);
 

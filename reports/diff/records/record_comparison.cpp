@@ -22,7 +22,7 @@ constexpr double kSignificant = 0.05;
 
 /// The absolute effect of a significant test, else 0.
 double reported_effect(const Comparison& c) {
-  return c.test && c.test->p < kSignificant ? std::abs(c.test->test.effect) : 0.0;
+  return c.test && c.test->p < kSignificant ? std::abs(c.test->change.ranks.effect) : 0.0;
 }
 
 std::string names_text(const std::vector<std::string>& names) {
@@ -73,16 +73,16 @@ void judge_presence(const RecordDiff& diff, Judgement& whole, std::vector<std::s
   add(diff.new_subjects, Verdict::kNew, "record");
 }
 
-/// "; it is probably better, but there are too few runs to be sure", where no test decides but this
-/// quantity alone points one way: by its own p, or without a test in all of three or more runs.
+/// "; it is probably better, but there are too few runs to be sure", where this quantity alone
+/// points one way: by a p that is not significant among all, or without a test in all of three or
+/// more runs.
 std::string tendency_words(const Comparison& c) {
   constexpr int kFewest = 3;
   if (c.quantity.better == Better::kNeither || c.quantity.of_solver) return "";
-  if (c.test && c.test->powerless_of == 0 && c.outcome != Outcome::kChanged) return "";
   bool worse = c.worse > 0;
   if (c.test) {
-    if (c.test->test.p >= kSignificant) return "";
-    worse = (c.test->test.effect > 0.0) == (c.quantity.better == Better::kLower);
+    if (c.test->change.p >= kSignificant || c.test->p < kSignificant) return "";
+    worse = (c.test->change.ranks.effect > 0.0) == (c.quantity.better == Better::kLower);
   } else if ((c.worse > 0) == (c.better > 0) || c.worse + c.better < kFewest) {
     return "";
   }
@@ -90,19 +90,13 @@ std::string tendency_words(const Comparison& c) {
                      worse ? "worse" : "better");
 }
 
-/// The result of a test besides p: empty where the test decided.
+/// Why a test has no p, or decides nothing; else empty.
 std::string test_words(const Comparison& c) {
-  if (!c.test) return "";
-  if (c.test->powerless_of == 0)
-    return c.outcome == Outcome::kChanged ? ", neither better nor worse over the runs" : "";
-  const std::string pairs =
-      c.test->unit == "run"
-          ? counted(c.test->test.pairs, "pair")
-          : fmt::format("{} pairs in {}", c.pairs, counted(c.test->test.pairs, c.test->unit));
-  return fmt::format(": {} are too few for significance in {}{}", pairs,
-                     c.test->powerless_of == 1 ? std::string("1 quantity")
-                                               : fmt::format("{} quantities", c.test->powerless_of),
-                     c.outcome == Outcome::kChanged ? "" : ", all that differ have one direction");
+  if (c.test && !has_p(c)) return fmt::format("; {}", kNoPWords);
+  if (!c.test || c.outcome != Outcome::kChanged) return "";
+  return c.test->p < kSignificant
+             ? fmt::format(", with a small effect of {:.2f}", c.test->change.ranks.effect)
+             : ", neither better nor worse over the runs";
 }
 
 void judge_comparisons(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
@@ -269,8 +263,7 @@ const Comparison* most_telling(const std::vector<const Comparison*>& comparisons
 }
 
 std::string directions_text(const std::vector<const Comparison*>& all, const Comparison& first) {
-  if (first.outcome != Outcome::kChanged || (first.test && first.test->powerless_of == 0))
-    return "";
+  if (first.outcome != Outcome::kChanged || first.test) return "";
   int worse = 0, better = 0, both = 0;
   for (const Comparison* c : all) {
     if (c->quantity.of_solver) continue;
@@ -317,8 +310,7 @@ std::string comparison_text(const Comparison& comparison, const std::string& run
   const bool is_alone = !has_own && run.empty() && comparison.pairs > 1 && comparison.beyond == 1 &&
                         comparison.largest.size() == 1 && comparison.lost + comparison.gained == 0;
   std::string p;
-  if (comparison.test && comparison.test->powerless_of == 0)
-    p = ", " + p_words(comparison.test->p);
+  if (has_p(comparison)) p = ", " + p_words(comparison.test->p);
   if (is_alone) {
     const PairedValue& only = comparison.largest.front();
     return fmt::format("{} {} in run {} alone of {}{}", quantity.label,
@@ -397,6 +389,10 @@ std::string_view name(Presence presence) {
       return "current";
   }
   return "";
+}
+
+bool has_p(const Comparison& comparison) {
+  return comparison.test && comparison.test->change.has_p();
 }
 
 bool shows_more(const Comparison& a, const Comparison& b) {

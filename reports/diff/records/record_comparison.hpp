@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/statistics/signed_rank.hpp"
+#include "core/statistics/paired_change.hpp"
 #include "render/base/geometry.hpp"
 #include "reports/diff/records/record_set.hpp"
 #include "reports/diff/verdict/tolerances.hpp"
@@ -40,16 +40,11 @@ struct PairedValue {
   double current = 0.0;
 };
 
-/// The test over pairs of equal runs.
+/// The test over pairs of equal runs, as nightly runs test them (core/statistics/paired_runs.hpp).
 struct PairedTest {
-  /// The unit of the test: "layout" or "group" for means over the runs of each; "run" if each run
-  /// is its own group, or if there are too few layouts.
-  std::string unit;
-  SignedRankTest test;
-  double p = 1.0;  ///< Corrected for all tests of the comparison.
-  /// The number of tests if no outcome of so few units could make any of them significant; else 0.
-  /// Such a test has no power and decides nothing.
-  int powerless_of = 0;
+  std::string unit;     ///< "layout", "group", "run".
+  PairedChange change;  ///< A difference, or the logarithm of a ratio.
+  double p = 1.0;       ///< Corrected for all tests of the comparison.
 };
 
 /// One quantity of one subject over all runs.
@@ -70,9 +65,12 @@ struct Comparison {
   double current_mean = 0.0;
   std::vector<PairedValue>
       largest;                     ///< Beyond tolerance, the largest difference first; at most 20.
-  std::optional<PairedTest> test;  ///< With six or more pairs of equal seeds.
+  std::optional<PairedTest> test;  ///< With three or more units of equal seeds.
   Outcome outcome = Outcome::kEqual;
 };
+
+/// Whether a test gave a p: equal changes have none by Student's t.
+bool has_p(const Comparison& comparison);
 
 /// Whether the first is to be shown before the second: by the weight of the outcome, then by the
 /// order of the dictionary, then by the largest significant effect, then by the best method where
@@ -167,7 +165,7 @@ Judgement judge(const RecordDiff& diff);
 const Comparison* most_telling(const std::vector<const Comparison*>& comparisons);
 
 /// " (errors: 1 worse, 3 better)" if they have both directions, and `first`, the most significant
-/// of them, has no test that decides; else empty.
+/// of them, has no test; else empty.
 std::string directions_text(const std::vector<const Comparison*>& all, const Comparison& first);
 
 /// "space.json is missing"; "maps/layout-1-pose-2.json: 2 numbers differ, the first at …".

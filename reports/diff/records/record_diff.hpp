@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "core/statistics/signed_rank.hpp"
 #include "render/base/geometry.hpp"
 #include "reports/diff/records/record_comparison.hpp"
 #include "reports/diff/records/record_set.hpp"
@@ -15,10 +14,11 @@
 
 namespace mapproof {
 
-/// Compares records run by run. With six or more pairs of equal seeds, Wilcoxon's signed rank test,
-/// corrected by Holm over all quantities that differ beyond tolerance, and its effect size decide
-/// between better, worse and changed. With fewer pairs, all errors that differ, of any quantity and
-/// subject, must change in one direction; quantities of the solver decide nothing then. Only
+/// Compares records run by run. With three or more units of equal seeds, the test of
+/// core/statistics/paired_runs.hpp, corrected by Holm over all quantities that differ beyond
+/// tolerance, and its effect size decide between better, worse and changed. With fewer units, all
+/// errors that differ, of any quantity and subject, must change in one direction; quantities of the
+/// solver decide nothing then. Only
 /// quantities with a difference are tested. Under the null hypothesis, by which both signs are
 /// equally likely, leaving out the others changes no probability.
 /// @throws InvalidInput if they are records of two kinds.

@@ -3,17 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/statistics/paired_runs.hpp"
 #include "reports/diff/records/number_diff.hpp"
 
 namespace mapproof {
 namespace {
 
 constexpr std::size_t kMostPairs = 20;
-constexpr int kLeastTested = 6;  // Below it, no p can be less than 0.05.
 
 std::set<std::string> subjects_of(const RecordSet& set) {
   std::set<std::string> subjects;
@@ -74,7 +76,7 @@ void add_to_largest(const PairedValue& pair, std::vector<PairedValue>& pairs) {
 }
 
 void compare_pair(const PairedValue& pair, const Name& run, const Tolerance& tolerance,
-                  Comparison& out, ValuesByRun& differences) {
+                  Comparison& out, const auto& differ) {
   const double a = pair.baseline, b = pair.current;
   if (std::isnan(a) && std::isnan(b)) return;
   if (std::isnan(a) || std::isnan(b)) {
@@ -90,7 +92,7 @@ void compare_pair(const PairedValue& pair, const Name& run, const Tolerance& tol
       return;
     }
   } else {
-    differences[run] = b - a;
+    differ(run, a, b);
     if (a == b) {
       ++out.equal;
       return;
@@ -103,26 +105,6 @@ void compare_pair(const PairedValue& pair, const Name& run, const Tolerance& tol
   ++out.beyond;
   ++(b > a ? out.worse : out.better);
   add_to_largest(pair, out.largest);
-}
-
-/// @param draws_groups  As in RecordSet: with fewer groups than a test needs there is no test.
-std::optional<PairedTest> paired_test(const ValuesByRun& differences, const GroupsByRun& groups,
-                                      bool draws_groups) {
-  PairedTest test;
-  std::vector<double> units = RunsByGroup(differences, groups).means([&](std::size_t i) {
-    return differences.begin()[static_cast<std::ptrdiff_t>(i)].second;
-  });
-  const bool are_runs = units.size() == differences.size();
-  const bool by_group = draws_groups || static_cast<int>(units.size()) >= kLeastTested;
-  test.unit = !by_group || (draws_groups && are_runs) ? "run" : draws_groups ? "group" : "layout";
-  if (!by_group && !are_runs) {
-    units.clear();
-    for (const auto& [run, value] : differences) units.push_back(value);
-  }
-  if (static_cast<int>(units.size()) < kLeastTested) return std::nullopt;
-  test.test = signed_rank_test(units);
-  test.p = test.test.p;
-  return test;
 }
 
 /// The value of a run; NaN if the side has the run but not the value, empty if it has neither.
@@ -153,18 +135,30 @@ void for_each_run(const ValuesByRun& a, const ValuesByRun& b, const Pair& pair) 
   }
 }
 
+bool has_negative(const ValuesByRun& values) {
+  return std::ranges::any_of(values, [](const auto& value) { return value.second < 0.0; });
+}
+
 /// Compares one quantity of one subject over all runs.
+/// @param changes  Of the runs, to be tested in pairs; empty if they are not pairs.
 Comparison compare(const RecordPair& sides, const ValuesByRun& before, const ValuesByRun& after,
-                   const Tolerance& tolerance) {
+                   const Quantity& quantity, const Tolerance& tolerance,
+                   std::vector<RunChange>& changes) {
   const auto& [a, b, same_seeds] = sides;
   Comparison out;
-  ValuesByRun differences;
   Mean firsts, seconds;
-  differences.reserve(std::max(before.size(), after.size()));
+  const bool in_points = changes_in_points(quantity) || has_negative(before) || has_negative(after);
+  const bool are_pairs = same_seeds && a.repeats;
+  if (are_pairs) changes.reserve(std::min(before.size(), after.size()));
+  const auto differ = [&](const Name& run, double first, double second) {
+    if (are_pairs)
+      changes.push_back(
+          {run, a.runs.find(run).value_or(run), value_change(in_points, first, second)});
+  };
   for_each_run(before, after, [&](const Name& run, const double* one, const double* other) {
     const std::optional<double> first = value_of(a, one, run), second = value_of(b, other, run);
     if (!first || !second) return;
-    compare_pair({run, *first, *second}, run, tolerance, out, differences);
+    compare_pair({run, *first, *second}, run, tolerance, out, differ);
     if (!std::isfinite(*first) || !std::isfinite(*second)) return;
     firsts.add(*first);
     seconds.add(*second);
@@ -172,8 +166,6 @@ Comparison compare(const RecordPair& sides, const ValuesByRun& before, const Val
   out.baseline_mean = same_seeds && !firsts.empty() ? firsts.value() : mean_of(before);
   out.current_mean = same_seeds && !seconds.empty() ? seconds.value() : mean_of(after);
   keep_largest(out.largest);
-  if (same_seeds && a.repeats && out.beyond > 0)
-    out.test = paired_test(differences, a.runs, a.draws_groups || b.draws_groups);
   return out;
 }
 
@@ -218,11 +210,13 @@ Outcome outcome_of(const Comparison& c, bool same_seeds, bool one_way,
     return c.within > 0 ? Outcome::kWithinTolerance : Outcome::kEqual;
   if (quantity.better == Better::kNeither || !same_seeds) return Outcome::kChanged;
   const bool up_is_worse = quantity.better == Better::kLower;
-  if (c.test && c.test->powerless_of == 0 && c.lost + c.gained == 0) {
-    const bool decides =
-        c.test->p < options.significance && std::abs(c.test->test.effect) >= options.least_effect;
+  if (c.test && c.lost + c.gained == 0) {
+    const double effect = c.test->change.ranks.effect;
+    const bool decides = c.test->p < options.significance &&
+                         std::abs(effect) >= options.least_effect &&
+                         (c.test->change.has_p() || !quantity.of_solver);
     if (!decides) return Outcome::kChanged;
-    return (c.test->test.effect > 0.0) == up_is_worse ? Outcome::kWorse : Outcome::kBetter;
+    return (effect > 0.0) == up_is_worse ? Outcome::kWorse : Outcome::kBetter;
   }
   const int worse = c.worse + c.lost, better = c.better + c.gained;
   if (quantity.of_solver || (worse > 0 && better > 0)) return Outcome::kChanged;
@@ -231,23 +225,22 @@ Outcome outcome_of(const Comparison& c, bool same_seeds, bool one_way,
   return worse > 0 ? Outcome::kWorse : Outcome::kBetter;
 }
 
-void correct(std::vector<Comparison>& all, double significance) {
-  std::vector<double> p;
-  double least_p = 1.0;
-  for (const Comparison& one : all)
-    if (one.test) {
-      p.push_back(one.test->p);
-      least_p = std::min(least_p, least_signed_rank_p(one.test->test.pairs));
-    }
-  // Holm multiplies the smallest p by the number of tests; all others become no smaller.
-  const bool is_powerless = least_p * static_cast<double>(p.size()) >= significance;
-  const std::vector<double> corrected = holm(p);
+/// Tests those that differ beyond tolerance in enough units.
+/// @param units  Of each.
+void test_all(std::vector<Comparison>& all, const std::vector<PairedUnits>& units) {
+  const auto is_tested = [&](std::size_t i) {
+    return all[i].beyond > 0 && std::cmp_greater_equal(units[i].changes.size(), kLeastUnits);
+  };
+  std::vector<std::span<const double>> tested;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (is_tested(i)) tested.push_back(units[i].changes);
+  const auto [changes, p] = test_pairs(tested);
   std::size_t next = 0;
-  for (Comparison& one : all)
-    if (one.test) {
-      one.test->p = corrected[next++];
-      one.test->powerless_of = is_powerless ? static_cast<int>(p.size()) : 0;
-    }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!is_tested(i)) continue;
+    all[i].test = PairedTest{units[i].unit, changes[next], p[next]};
+    ++next;
+  }
 }
 
 }  // namespace
@@ -290,7 +283,9 @@ std::vector<Comparison> compare_series(const RecordSet& a, const RecordSet& b, b
   const std::set<std::string> there = subjects_of(b);
   static const ValuesByRun kNone;
   const std::vector<Quantity> quantities = compared_quantities(a, b);
+  const bool draws_groups = a.draws_groups || b.draws_groups;
   std::vector<Comparison> all;
+  std::vector<PairedUnits> units;
   values = 0;
   for (const auto& [subject, other] : matched_subjects(a, b)) {
     if (!there.contains(other)) continue;
@@ -298,9 +293,10 @@ std::vector<Comparison> compare_series(const RecordSet& a, const RecordSet& b, b
       const auto before = a.values.find({subject, quantity.id});
       const auto after = b.values.find({other, quantity.id});
       if (before == a.values.end() && after == b.values.end()) continue;
+      std::vector<RunChange> changes;
       Comparison c = compare({a, b, same_seeds}, before == a.values.end() ? kNone : before->second,
-                             after == b.values.end() ? kNone : after->second,
-                             tolerance_of(quantity, options.tolerances));
+                             after == b.values.end() ? kNone : after->second, quantity,
+                             tolerance_of(quantity, options.tolerances), changes);
       values += c.pairs + c.lost + c.gained;
       c.subject = subject;
       c.current_subject = other;
@@ -309,10 +305,13 @@ std::vector<Comparison> compare_series(const RecordSet& a, const RecordSet& b, b
       c.quantity = quantity;
       if (quantity.better == Better::kHigher) std::swap(c.worse, c.better);
       if (quantity.better == Better::kNeither || !same_seeds) c.worse = c.better = 0;
-      if (c.within + c.beyond + c.lost + c.gained > 0) all.push_back(std::move(c));
+      if (c.within + c.beyond + c.lost + c.gained == 0) continue;
+      units.push_back(c.beyond > 0 ? paired_units(std::move(changes), draws_groups)
+                                   : PairedUnits{});
+      all.push_back(std::move(c));
     }
   }
-  correct(all, options.significance);
+  test_all(all, units);
   const bool one_way = point_one_way(all);
   for (Comparison& one : all) one.outcome = outcome_of(one, same_seeds, one_way, options);
   return all;

@@ -57,8 +57,8 @@ Row row_of(const Comparison& c) {
            TextCell{runs_text(c)}},
           "",
           false};
-  row.cells.push_back(c.test ? Cell(p_cell(c.test->p)) : Cell(MissingCell{}));
-  row.cells.push_back(c.test ? Cell(NumberCell{c.test->test.effect, 2, true})
+  row.cells.push_back(has_p(c) ? Cell(p_cell(c.test->p)) : Cell(MissingCell{}));
+  row.cells.push_back(c.test ? Cell(NumberCell{c.test->change.ranks.effect, 2, true})
                              : Cell(MissingCell{}));
   row.cells.emplace_back(TextCell{std::string(label(verdict_of(c.outcome)))});
   return row;
@@ -82,12 +82,15 @@ void add_score_table(std::vector<Block>& blocks, const std::string& id, const st
                    {"Outcome", "", "", ""}};
   const long total = std::ssize(comparisons);
   if (comparisons.size() > kMostTableRows) comparisons.resize(kMostTableRows);
-  bool tested = false;
+  bool tested = false, equal = false;
   for (const Comparison* comparison : comparisons) {
     table.rows.push_back(row_of(*comparison));
-    tested = tested || comparison->test.has_value();
+    tested = tested || has_p(*comparison);
+    equal = equal || (comparison->test && !has_p(*comparison));
   }
-  if (!tested)
+  if (equal)
+    table.notes.emplace_back("No p where the changes are equal.");
+  else if (!tested)
     table.notes.emplace_back("No p: there are too few pairs of runs or of groups to test.");
   add_table(blocks, std::move(table), total);
 }
