@@ -281,9 +281,10 @@ std::string nightly_text(const NightlyRun& nightly_run, const NightlySummary& su
           fmt::format("  {}: {}, known: {}\n", group.study, group.headline(), group.known->text);
   for (const NightlyStudy& study : nightly_run.studies) {
     std::size_t count = 0;
-    for (const NightlyFinding& finding : new_findings(nightly_run.findings, summary.all_notes))
-      if (finding.study == study.name && ++count <= kMostReported)
-        text += fmt::format("  {}: {}\n", finding.study, finding.sentence);
+    for (const FindingGroup& group : summary.groups)
+      for (const std::string& sentence : group.sentences)
+        if (group.study == study.name && !group.known && ++count <= kMostReported)
+          text += fmt::format("  {}: {}\n", study.name, sentence);
     if (count > kMostReported)
       text +=
           fmt::format("  {}: and {} more: {}#section-findings\n", study.name, count - kMostReported,

@@ -13,11 +13,13 @@
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/shell_word.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
+#include "reports/history/regression_rules.hpp"
 
 namespace mapproof {
 namespace {
@@ -383,6 +385,15 @@ std::string FindingGroup::count_text() const {
   return numbers.size() < 2 ? "" : counted(std::ssize(numbers), "finding");
 }
 
+double FindingGroup::worsening() const {
+  if (rule == HistoryRule::kLostResults) return kInfinity;
+  if (changes.empty()) return 0.0;
+  const auto [least, most] = std::ranges::minmax(changes);
+  const RegressionRules rules;
+  return (higher_is_better ? -least : most) /
+         (in_points ? rules.least_points : 100.0 * rules.least_ratio);
+}
+
 std::size_t count_findings(std::span<const FindingGroup> groups, bool known) {
   std::size_t count = 0;
   for (const FindingGroup& group : groups)
@@ -420,8 +431,10 @@ std::vector<FindingGroup> grouped(int nightly_run, std::span<const NightlyFindin
     if (trend != trends.end() && !group.series.empty())
       group.settings_of_method = count_settings(*trend, group.series.front());
   }
-  std::ranges::stable_partition(groups, [](const FindingGroup& group) { return !group.is_time; });
-  std::ranges::stable_partition(groups, [](const FindingGroup& group) { return !group.known; });
+  std::ranges::stable_sort(groups, {}, [](const FindingGroup& group) {
+    const bool is_cost = group.is_time || verdict_of(group.rule) == NightlyVerdict::kCost;
+    return std::tuple(group.known.has_value(), is_cost, -group.worsening());
+  });
   return groups;
 }
 

@@ -103,10 +103,13 @@ struct FindingGroup {
   std::string values_text() const;
   /// "2 findings"; empty for one.
   std::string count_text() const;
+  /// By how much it got worse, the largest of its changes, in units of the least change that a rule
+  /// for accuracy finds: percent and points on one scale. Infinite if results are lost.
+  double worsening() const;
 };
 
-/// The findings of a nightly run in groups: those that are new first, times behind what else a
-/// study measures, else in their order.
+/// The findings of a nightly run in groups, in the order of all pages and messages: those that are
+/// new first, accuracy before time and memory, then what got worse most.
 /// @param nightly_run  The number of that nightly run.
 /// @param findings  All of that nightly run: they determine what changes are shown against.
 /// @param trends  Of the studies; findings of a study without one have no method and no commits.

@@ -468,12 +468,14 @@ void put_regressed_first(Report& report, Section worse) {
   if (!worse.blocks.empty()) sections.insert(sections.begin(), std::move(worse));
 }
 
-/// Makes a figure of what got worse, of the first finding if one shows it, the one of the first
-/// screen; the one that was is a small one.
-void show_regressed(Report& report, std::span<const FindingGroup> groups) {
+/// Makes a figure of what got worse, of the study's first finding if one shows it, the one of the
+/// first screen; the one that was is a small one.
+void show_regressed(Report& report, std::span<const FindingGroup> groups,
+                    const std::string& study) {
   Opening& opening = report.opening;
   const auto all = figures(report);
-  std::string first = groups.empty() ? "" : groups.front().headline();
+  const auto of_study = std::ranges::find(groups, study, &FindingGroup::study);
+  std::string first = of_study == groups.end() ? "" : of_study->headline();
   const auto is_worse = [&](const FigureBlock* figure) {
     return !figure->regressed.empty() && figure->regressed.find(first) != std::string::npos;
   };
@@ -498,7 +500,7 @@ void add_nightly_run(Report& report, const StudyOfNightlyRun& study, NightlyLink
       fmt::format("{}{}", report.subtitle.empty() ? "" : "; ", dated_name(nightly_run.facts));
   opening.standing = study_standing(nightly_run.facts, study.groups, study.name, study.is_compared);
   mark_regressed(report, study.figures, study.groups, study.name);
-  show_regressed(report, study.groups);
+  show_regressed(report, study.groups, study.name);
   put_regressed_first(report, worse_of_study(study, links));
   std::optional<Phrase> reference;
   if (study.is_compared && nightly_run.facts.reference)

@@ -104,13 +104,6 @@ ChangeCurve memory_curve(const StudyTrend& trend, std::size_t from,
   return curve;
 }
 
-/// By the least that a rule for accuracy finds: changes in percent and in points on one scale.
-double size_of(const FindingGroup& group) {
-  if (group.changes.empty()) return kInfinity;  // Results are lost.
-  const auto [least, most] = std::ranges::minmax(group.changes);
-  return std::max(std::abs(least), std::abs(most)) / least_of(group.in_points);
-}
-
 /// "MPE +17.6 %" of a change of a series.
 std::string change_words(const StudyTrend& trend, const SeriesId& id, double change) {
   const Quantity& quantity = trend.quantities.at(id.quantity);
@@ -160,11 +153,7 @@ std::optional<Course> worst_course(const StudyTrend& trend, const NightlyFinding
   const std::vector<FindingGroup> groups =
       grouped(trend.nightly_runs.back().number, last, std::span(&trend, 1), notes);
   if (groups.empty()) return greatest_course(trend, findings, 1.0, Shown::kAll);
-  const auto is_less = [](const FindingGroup& a, const FindingGroup& b) {
-    if (a.known.has_value() != b.known.has_value()) return a.known.has_value();
-    return size_of(a) < size_of(b);
-  };
-  const FindingGroup& worst = *std::ranges::max_element(groups, is_less);
+  const FindingGroup& worst = groups.front();
   Course course;
   course.words = worst.setup.empty() ? "" : worst.setup + ", ";
   course.words += worst.headline();

@@ -74,6 +74,36 @@ TEST(FindingGroups, AreOfOneMethodAndSayWhatChangedByHowMuchAndSinceWhichCommits
   EXPECT_EQ(group.count_text(), "2 findings");
 }
 
+TEST(FindingGroups, OfWhatGotWorseMostStandFirstAccuracyBeforeCosts) {
+  StudyTrend trend = two_settings();
+  trend.medians[{"bearing", "lpca", 150, "mpe_m"}] = {0.20, 0.20, 0.30};
+  std::vector<NightlyFinding> findings = two_findings();
+  NightlyFinding lpca = findings[0], memory = findings[0];
+  lpca.subject = "bearing, lpca, 150 steps";
+  lpca.change = 50.0;
+  memory.rule = HistoryRule::kMemory;
+  memory.subject = kAllMethods;
+  memory.quantity = "memory";
+  memory.change = 90.0;
+  findings.insert(findings.begin(), memory);
+  findings.push_back(lpca);
+  const IndexFacts facts{
+      .nightly_runs = trend.nightly_runs, .findings = {{3, findings}}, .trends = {trend}};
+  const std::vector<FindingGroup> groups = last_summary(facts).groups;
+  ASSERT_EQ(groups.size(), 3U);
+  EXPECT_EQ(groups[0].headline(), "LPCA: MPE +50.0\u00a0%");
+  EXPECT_EQ(groups[1].headline(), "ISOMAP: MPE +20.0\u00a0% (K = 6 and 8)");
+  EXPECT_EQ(groups[2].rule, HistoryRule::kMemory);
+  const Report index = index_page(facts, {}).report;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    EXPECT_EQ(std::get<FindingBlock>(index.sections.front().blocks[i]).title, groups[i].headline());
+    EXPECT_NE(index.opening.standing->sentences[i].find(groups[i].headline()), std::string::npos);
+  }
+  EXPECT_TRUE(trend_figures(trend, facts.findings)
+                  .front()
+                  .title.starts_with("Bearing: LPCA: MPE +50.0\u00a0% and ISOMAP: MPE"));
+}
+
 TEST(FindingGroups, OfAllSettingsOfAMethodSaySoInsteadOfNamingEach) {
   StudyTrend trend = two_settings();
   trend.medians[{"bearing", "isomap-K10", 150, "mpe_m"}] = {0.10, 0.12, 0.12};
