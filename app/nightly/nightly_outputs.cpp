@@ -84,6 +84,7 @@ void judge_as_nightly_run(const NightlyPair& pair, const std::string& study, Dif
   if (standing.sentences.empty()) return;
   std::string cause = standing.title + ":";
   for (const std::string& sentence : standing.sentences) cause += " " + sentence;
+  if (!standing.note.empty()) cause += " " + standing.note;
   for (DiffItem& item : result.items)
     if (item.records) judge_found(pair.groups, study, *item.records);
   judge_records_as(result, {Verdict::kWorse, true, cause});

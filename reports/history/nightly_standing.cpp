@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -24,9 +25,34 @@ std::string share_words(std::size_t own, std::size_t all) {
   return own == 2 ? "both findings" : fmt::format("all {} findings", own);
 }
 
-/// What, by how much, since when, and how to list the commits.
-/// @param all  New findings in all.
-std::string sentence_of(const FindingGroup& group, std::size_t all) {
+/// Between which nightly runs, and how to list the commits.
+std::string range_words(const CommitRange& range) {
+  return range.words() + (range.has_commits() ? ": git log " + range.text() : "");
+}
+
+bool is_same_range(const CommitRange& a, const CommitRange& b) {
+  return a.before.number == b.before.number && a.since.number == b.since.number;
+}
+
+/// The range in which most of the groups began; null if no two began in one.
+const CommitRange* shared_range(std::span<const FindingGroup* const> groups) {
+  const CommitRange* shared = nullptr;
+  std::ptrdiff_t most = 1;
+  for (const FindingGroup* group : groups) {
+    const auto count = std::ranges::count_if(groups, [&](const FindingGroup* other) {
+      return is_same_range(group->commits, other->commits);
+    });
+    if (count <= most) continue;
+    most = count;
+    shared = &group->commits;
+  }
+  return shared;
+}
+
+/// What, by how much, and since when.
+/// @param all     New findings in all.
+/// @param shared  The range that is said elsewhere; may be null.
+std::string sentence_of(const FindingGroup& group, std::size_t all, const CommitRange* shared) {
   std::string text = group.setup.empty() ? "" : group.setup + ", ";
   text += group.headline();
   if (const std::string values = group.values_text(); !values.empty()) text += " (" + values + ")";
@@ -36,32 +62,53 @@ std::string sentence_of(const FindingGroup& group, std::size_t all) {
                             : is_counted ? ""
                                          : share_words(group.numbers.size(), all);
   if (!count.empty()) text += " (" + count + ")";
-  text += ", " + group.commits.words();
-  if (group.commits.has_commits()) text += ": git log " + group.commits.text();
+  if (shared == nullptr || !is_same_range(group.commits, *shared))
+    text += ", " + range_words(group.commits);
   return text + (group.known ? "; known: " + group.known->text : ".");
 }
 
-/// Adds the first groups of a study; a single group beyond kMostReported has its own sentence,
+/// The groups of a study.
+std::vector<const FindingGroup*> groups_of(std::span<const FindingGroup> groups,
+                                           const std::string& study) {
+  std::vector<const FindingGroup*> of_study;
+  for (const FindingGroup& group : groups)
+    if (group.study == study) of_study.push_back(&group);
+  return of_study;
+}
+
+/// Adds the first groups of each study; a single group beyond kMostReported has its own sentence,
 /// since the one that counts it would be as long.
-/// @param before  Put before each sentence.
-void add_findings(std::span<const FindingGroup> groups, const std::string& study,
-                  const std::string& before, Standing& standing) {
-  std::size_t count = 0, more = 0;
+/// @param names_study  Whether each sentence begins with the study.
+void add_findings(std::span<const FindingGroup> groups, std::span<const std::string> studies,
+                  bool names_study, Standing& standing) {
   const std::size_t all = count_findings(groups, false);
-  const auto of_study =
-      static_cast<std::size_t>(std::ranges::count(groups, study, &FindingGroup::study));
-  const std::size_t shown = of_study == kMostReported + 1 ? of_study : kMostReported;
-  for (const FindingGroup& group : groups) {
-    if (group.study != study) continue;
-    if (++count <= shown)
-      standing.sentences.push_back(before + sentence_of(group, all));
-    else
-      more += group.numbers.size();
+  std::vector<const FindingGroup*> shown;
+  std::map<std::string, std::size_t> more;
+  for (const std::string& study : studies) {
+    const std::vector<const FindingGroup*> of_study = groups_of(groups, study);
+    const std::size_t most = of_study.size() == kMostReported + 1 ? of_study.size() : kMostReported;
+    for (std::size_t i = 0; i < of_study.size(); ++i)
+      if (i < most)
+        shown.push_back(of_study[i]);
+      else
+        more[study] += of_study[i]->numbers.size();
   }
-  if (more > 0)
-    standing.sentences.push_back(
-        fmt::format("{}{} {}, among those of its trends.", before, before.empty() ? "And" : "and",
-                    counted(static_cast<long long>(more), "more finding")));
+  const CommitRange* shared = shared_range(shown);
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const std::string& study = shown[i]->study;
+    const std::string before = names_study ? study + ": " : "";
+    standing.sentences.push_back(before + sentence_of(*shown[i], all, shared));
+    const bool is_last = i + 1 == shown.size() || shown[i + 1]->study != study;
+    if (is_last && more.contains(study))
+      standing.sentences.push_back(
+          fmt::format("{}{} {}, among those of its trends.", before, names_study ? "and" : "And",
+                      counted(static_cast<long long>(more[study]), "more finding")));
+  }
+  if (shared == nullptr) return;
+  const bool is_all = std::ranges::all_of(
+      shown, [&](const FindingGroup* group) { return is_same_range(group->commits, *shared); });
+  standing.note =
+      fmt::format("{} got worse {}.", is_all ? "All of these" : "The others", range_words(*shared));
 }
 
 /// The studies that have findings, in the order of these.
@@ -80,7 +127,7 @@ Standing study_standing(const NightlyFacts& nightly_run, std::span<const Finding
   std::vector<FindingGroup> of_study;
   std::ranges::copy_if(groups, std::back_inserter(of_study),
                        [&](const FindingGroup& group) { return group.study == study; });
-  add_findings(of_study, study, "", result);
+  add_findings(of_study, std::span(&study, 1), false, result);
   result.worse = count_findings(of_study, false) > 0;
   NightlyFacts facts = nightly_run;
   if (!is_compared) facts.reference.reset();
@@ -92,8 +139,7 @@ Standing study_standing(const NightlyFacts& nightly_run, std::span<const Finding
 
 Standing nightly_standing(const NightlySummary& summary) {
   Standing result;
-  for (const std::string& study : studies_of(summary.groups))
-    add_findings(summary.groups, study, study + ": ", result);
+  add_findings(summary.groups, studies_of(summary.groups), true, result);
   result.worse = summary.new_findings() > 0;
   result.title = summary.title();
   return result;

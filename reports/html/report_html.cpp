@@ -79,6 +79,7 @@ data standing_data(const Standing& standing) {
   for (const std::string& sentence : standing.sentences)
     sentences.push_back(data("sentence", page_text(sentence)));
   out.set("sentences", sentences);
+  out.set("note", text_or_false(page_text(standing.note)));
   return out;
 }
 

@@ -230,6 +230,7 @@ struct Standing {
   bool worse = false;
   std::string title;                   ///< "Nightly run 12: accuracy got worse".
   std::vector<std::string> sentences;  ///< What, with numbers.
+  std::string note = {};               ///< What holds for several sentences.
 };
 
 /// What the reader is to see before anything else: what was done, how good it is, compared with

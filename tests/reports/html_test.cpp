@@ -373,11 +373,15 @@ TEST(ReportHtml, RefusesAnOpeningWithAMissingFigure) {
 TEST(ReportHtml, SaysHowItStandsOnlyWhereThatIsKnown) {
   Report report{"t", "", {}, ""};
   EXPECT_EQ(report_html(report, load_templates(), {}).find("class=\"standing"), std::string::npos);
-  report.opening.standing =
-      Standing{true, "Nightly run 5: 1 thing got worse", {"LLE is 5 % less accurate."}};
+  report.opening.standing = Standing{true,
+                                     "Nightly run 5: 1 thing got worse",
+                                     {"LLE is 5 % less accurate."},
+                                     "All of these got worse since nightly run 5."};
   const std::string page = report_html(report, load_templates(), {});
   EXPECT_NE(page.find("class=\"standing worse\""), std::string::npos);
   EXPECT_NE(page.find("LLE is 5\u00a0% less accurate."), std::string::npos);
+  EXPECT_NE(page.find("<p><bdi>All of these got worse since nightly run 5.</bdi></p>"),
+            std::string::npos);
 }
 
 TEST(ReportHtml, DrawsAChangeInTheColourOfItsFindings) {

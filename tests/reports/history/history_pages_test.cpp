@@ -60,8 +60,9 @@ TEST(HistoryPages, BeginWithThreeFindingsAndSayHowManyMore) {
   const Standing stands = study_standing(nightly_run.facts, groups, "mine", true);
   EXPECT_EQ(stands.title, "Nightly run 5: accuracy got worse: 7 findings");
   ASSERT_EQ(stands.sentences.size(), 4U);
-  EXPECT_EQ(stands.sentences[2], "method 5: mpe_m +5.0\u00a0%, since nightly run 5.");
+  EXPECT_EQ(stands.sentences[2], "method 5: mpe_m +5.0\u00a0%.");
   EXPECT_TRUE(stands.sentences[3].starts_with("And 4 more findings"));
+  EXPECT_EQ(stands.note, "All of these got worse since nightly run 5.");
 
   const Report index = index_page({.nightly_runs = {nightly_run.facts},
                                    .findings = {{5, nightly_run.findings}},
@@ -85,7 +86,7 @@ TEST(HistoryPages, ShowTheLastFindingInsteadOfCountingIt) {
   const std::vector<FindingGroup> groups = grouped(5, findings, {}, {});
   const Standing stands = study_standing({.number = 5}, groups, "mine", true);
   ASSERT_EQ(stands.sentences.size(), 4U);
-  EXPECT_EQ(stands.sentences[3], "method 1: mpe_m +1.0\u00a0%, since nightly run 5.");
+  EXPECT_EQ(stands.sentences[3], "method 1: mpe_m +1.0\u00a0%.");
 }
 
 /// A trend of two settings of ISOMAP, the first of which was best until the last nightly run.

@@ -352,6 +352,35 @@ TEST(HistoryPages, BeginWithWhatGotWorseWhereItBeganAndALinePerStudy) {
   EXPECT_EQ(curve.is_found, (std::vector<bool>{false, false, true}));
 }
 
+TEST(HistoryPages, SayOnceBetweenWhichNightlyRunsSeveralFindingsBegan) {
+  StudyTrend trend = two_settings();
+  trend.medians[{"bearing", "lpca", 150, "mpe_m"}] = {0.20, 0.30, 0.30};
+  trend.medians[{"bearing", "smacof", 150, "mpe_m"}] = {0.20, 0.20, 0.21};
+  std::vector<NightlyFinding> findings = {two_findings()[0]};
+  const auto add = [&](const std::string& method, int since) {
+    findings.push_back(findings.front());
+    findings.back().subject = "bearing, " + method + ", 150 steps";
+    findings.back().since = since;
+  };
+  const auto standing = [&] {
+    return index_page(
+               {.nightly_runs = trend.nightly_runs, .findings = {{3, findings}}, .trends = {trend}},
+               {})
+        .report.opening.standing.value();
+  };
+  EXPECT_EQ(standing().note, "") << "a single finding names its nightly runs itself";
+  add("lpca", 2);
+  EXPECT_EQ(standing().note,
+            "All of these got worse between nightly runs 1 and 2: git log aaaaaaaaa..bbbbbbbbb.");
+  for (const std::string& sentence : standing().sentences)
+    EXPECT_EQ(sentence.find("nightly run"), std::string::npos) << sentence;
+  add("smacof", 3);
+  EXPECT_EQ(standing().note,
+            "The others got worse between nightly runs 1 and 2: git log aaaaaaaaa..bbbbbbbbb.");
+  EXPECT_NE(standing().sentences.back().find(", between nightly runs 2 and 3."), std::string::npos)
+      << standing().sentences.back();
+}
+
 TEST(HistoryPages, ShowASearchOnTheFirstScreenOnlyWhereItCanBeRun) {
   StudyTrend trend = two_settings();
   for (NightlyFacts& nightly_run : trend.nightly_runs) nightly_run.build.clear();
