@@ -80,7 +80,8 @@ void judge_found(const std::vector<FindingGroup>& groups, const std::string& stu
 /// Gives a comparison the verdict of the nightly run: one rule judges a nightly run and the page
 /// that shows why.
 void judge_as_nightly_run(const NightlyPair& pair, const std::string& study, DiffResult& result) {
-  const Standing standing = study_standing(pair.after, pair.groups, study, true);
+  NightlyLinks links({});
+  const Standing standing = study_standing(pair.after, pair.groups, study, true, links);
   if (standing.sentences.empty()) return;
   std::string cause = standing.title + ":";
   for (const std::string& sentence : standing.sentences) cause += " " + sentence;

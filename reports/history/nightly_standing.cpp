@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -80,30 +79,28 @@ std::vector<const FindingGroup*> groups_of(std::span<const FindingGroup> groups,
 /// since the one that counts it would be as long.
 /// @param names_study  Whether each sentence begins with the study.
 void add_findings(std::span<const FindingGroup> groups, std::span<const std::string> studies,
-                  bool names_study, Standing& standing) {
+                  bool names_study, NightlyLinks& links, Standing& standing) {
   const std::size_t all = count_findings(groups, false);
   std::vector<const FindingGroup*> shown;
-  std::map<std::string, std::size_t> more;
   for (const std::string& study : studies) {
     const std::vector<const FindingGroup*> of_study = groups_of(groups, study);
     const std::size_t most = of_study.size() == kMostReported + 1 ? of_study.size() : kMostReported;
+    std::size_t more = 0;
     for (std::size_t i = 0; i < of_study.size(); ++i)
       if (i < most)
         shown.push_back(of_study[i]);
       else
-        more[study] += of_study[i]->numbers.size();
+        more += of_study[i]->numbers.size();
+    if (more > 0)
+      standing.rest.push_back(
+          {{phrase(fmt::format("{} {}, among ", names_study ? study + ": and" : "And",
+                               counted(static_cast<long long>(more), "more finding"))),
+            links.findings(study), phrase(".")}});
   }
   const CommitRange* shared = shared_range(shown);
-  for (std::size_t i = 0; i < shown.size(); ++i) {
-    const std::string& study = shown[i]->study;
-    const std::string before = names_study ? study + ": " : "";
-    standing.sentences.push_back(before + sentence_of(*shown[i], all, shared));
-    const bool is_last = i + 1 == shown.size() || shown[i + 1]->study != study;
-    if (is_last && more.contains(study))
-      standing.sentences.push_back(
-          fmt::format("{}{} {}, among those of its trends.", before, names_study ? "and" : "And",
-                      counted(static_cast<long long>(more[study]), "more finding")));
-  }
+  for (const FindingGroup* group : shown)
+    standing.sentences.push_back((names_study ? group->study + ": " : "") +
+                                 sentence_of(*group, all, shared));
   if (shared == nullptr) return;
   const bool is_all = std::ranges::all_of(
       shown, [&](const FindingGroup* group) { return is_same_range(group->commits, *shared); });
@@ -122,12 +119,12 @@ std::vector<std::string> studies_of(std::span<const FindingGroup> groups) {
 }  // namespace
 
 Standing study_standing(const NightlyFacts& nightly_run, std::span<const FindingGroup> groups,
-                        const std::string& study, bool is_compared) {
+                        const std::string& study, bool is_compared, NightlyLinks& links) {
   Standing result;
   std::vector<FindingGroup> of_study;
   std::ranges::copy_if(groups, std::back_inserter(of_study),
                        [&](const FindingGroup& group) { return group.study == study; });
-  add_findings(of_study, std::span(&study, 1), false, result);
+  add_findings(of_study, std::span(&study, 1), false, links, result);
   result.worse = count_findings(of_study, false) > 0;
   NightlyFacts facts = nightly_run;
   if (!is_compared) facts.reference.reset();
@@ -137,9 +134,9 @@ Standing study_standing(const NightlyFacts& nightly_run, std::span<const Finding
   return result;
 }
 
-Standing nightly_standing(const NightlySummary& summary) {
+Standing nightly_standing(const NightlySummary& summary, NightlyLinks& links) {
   Standing result;
-  add_findings(summary.groups, studies_of(summary.groups), true, result);
+  add_findings(summary.groups, studies_of(summary.groups), true, links, result);
   result.worse = summary.new_findings() > 0;
   result.title = summary.title();
   return result;

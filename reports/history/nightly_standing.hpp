@@ -7,6 +7,7 @@
 #include "render/plot/figure.hpp"
 #include "reports/history/finding_groups.hpp"
 #include "reports/history/nightly_summary.hpp"
+#include "reports/history/pages/nightly_links.hpp"
 #include "reports/model/report.hpp"
 
 namespace mapproof {
@@ -19,11 +20,12 @@ inline constexpr std::size_t kMostReported = 3;
 /// findings there are; a fourth group is shown if it is the last.
 /// @param groups       Of that nightly run; those of other studies are left out.
 /// @param is_compared  Whether the reference run has the study, ordered in the same way.
+/// @param links        Of the page.
 Standing study_standing(const NightlyFacts& nightly_run, std::span<const FindingGroup> groups,
-                        const std::string& study, bool is_compared);
+                        const std::string& study, bool is_compared, NightlyLinks& links);
 
 /// The verdict on all studies of a nightly run: the first groups of each, after its name.
-Standing nightly_standing(const NightlySummary& summary);
+Standing nightly_standing(const NightlySummary& summary, NightlyLinks& links);
 
 /// Marks what got worse of a study in its report: the rows of tables that are about a method with a
 /// finding, and the figures that draw it with the quantity of the finding.

@@ -302,10 +302,12 @@ constexpr std::size_t kLong = 200;
 
 data phrase_data(const Phrase& phrase, const HtmlOptions& options) {
   data out;
-  const std::string link = link_of(phrase.emphasis, phrase.text, options);
-  const bool is_file = !link.empty();
+  const std::string element = phrase.element.empty() ? "" : "#" + phrase.element;
+  const std::string address = link_of(phrase.emphasis, phrase.text, options);
+  const bool is_file = !address.empty();
+  const std::string link = address + (is_file ? element : "");
   const bool is_prose = phrase.emphasis == Emphasis::kPlain || phrase.emphasis == Emphasis::kStrong;
-  out.set("text", is_file    ? link_words(phrase.text, options)
+  out.set("text", is_file    ? link_words(phrase.text + element, options)
                   : is_prose ? page_text(phrase.text)
                              : phrase.text);
   out.set("plain",

@@ -15,7 +15,8 @@ struct HtmlOptions {
   std::string root =
       {};  ///< From the page to the report's folder, "../"; files are linked below it.
   bool copies_tables = true;  ///< Tables can be copied as CSV and as LaTeX.
-  /// The texts of links to files, by path; other links show the path.
+  /// The texts of links to files, by path, with "#" and the element if there is one; other links
+  /// show these.
   std::map<std::string, std::string> link_words = {};
 };
 

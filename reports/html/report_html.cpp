@@ -71,7 +71,7 @@ list contents(const Report& report) {
   return groups;
 }
 
-data standing_data(const Standing& standing) {
+data standing_data(const Standing& standing, const HtmlOptions& options) {
   data out;
   out.set("worse", data(standing.worse));
   out.set("title", standing.title);
@@ -79,6 +79,10 @@ data standing_data(const Standing& standing) {
   for (const std::string& sentence : standing.sentences)
     sentences.push_back(data("sentence", page_text(sentence)));
   out.set("sentences", sentences);
+  list rest;
+  for (const Paragraph& paragraph : standing.rest)
+    rest.push_back(data("phrases", phrases_data(paragraph, options)));
+  out.set("rest", rest);
   out.set("note", text_or_false(page_text(standing.note)));
   return out;
 }
@@ -203,7 +207,7 @@ void set_opening(data& page, const Report& report, const FigureContext& drawn,
   page.set("highlights", opening.numbers.items.empty()
                              ? data(false)
                              : data("items", highlight_items(opening.numbers)));
-  page.set("standing", opening.standing ? standing_data(*opening.standing) : data(false));
+  page.set("standing", opening.standing ? standing_data(*opening.standing, options) : data(false));
   page.set("findings", findings);
   page.set("folded", folded);
   page.set("any_folded", data(!folded.empty()));

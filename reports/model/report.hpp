@@ -25,6 +25,7 @@ enum class Emphasis {
 struct Phrase {
   std::string text;
   Emphasis emphasis = Emphasis::kPlain;
+  std::string element = {};  ///< Of a kFile: the id in it that the link leads to.
 };
 
 /// Words set as the text around them.
@@ -230,6 +231,7 @@ struct Standing {
   bool worse = false;
   std::string title;                   ///< "Nightly run 12: accuracy got worse".
   std::vector<std::string> sentences;  ///< What, with numbers.
+  std::vector<Paragraph> rest = {};    ///< What the sentences leave out, and where it is.
   std::string note = {};               ///< What holds for several sentences.
 };
 

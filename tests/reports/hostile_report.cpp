@@ -63,7 +63,7 @@ std::string drawn_map(std::vector<std::string>& names) {
 Opening opening(Trap& text) {
   return {.findings = {{{{text(), Emphasis::kPlain}, {text(), Emphasis::kStrong}}}},
           .figure_ids = {"drawn", "figure"},
-          .standing = Standing{true, text(), {text(), text()}, text()},
+          .standing = Standing{true, text(), {text(), text()}, {{{{text()}}}}, text()},
           .numbers = {{{text(), text(), text(), "provenance"}}},
           .main_figure = "drawn"};
 }

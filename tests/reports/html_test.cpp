@@ -373,13 +373,18 @@ TEST(ReportHtml, RefusesAnOpeningWithAMissingFigure) {
 TEST(ReportHtml, SaysHowItStandsOnlyWhereThatIsKnown) {
   Report report{"t", "", {}, ""};
   EXPECT_EQ(report_html(report, load_templates(), {}).find("class=\"standing"), std::string::npos);
-  report.opening.standing = Standing{true,
-                                     "Nightly run 5: 1 thing got worse",
-                                     {"LLE is 5 % less accurate."},
-                                     "All of these got worse since nightly run 5."};
-  const std::string page = report_html(report, load_templates(), {});
+  report.opening.standing = Standing{
+      .worse = true,
+      .title = "Nightly run 5: 1 thing got worse",
+      .sentences = {"LLE is 5 % less accurate."},
+      .rest = {{{phrase("And 4 more, among "), {"a #b.html", Emphasis::kFile, "section-c"}}}},
+      .note = "All of these got worse since nightly run 5."};
+  HtmlOptions options;
+  options.link_words["a #b.html#section-c"] = "all findings";
+  const std::string page = report_html(report, load_templates(), {}, options);
   EXPECT_NE(page.find("class=\"standing worse\""), std::string::npos);
   EXPECT_NE(page.find("LLE is 5\u00a0% less accurate."), std::string::npos);
+  EXPECT_NE(page.find("href=\"./a%20%23b.html#section-c\">all findings</a>"), std::string::npos);
   EXPECT_NE(page.find("<p><bdi>All of these got worse since nightly run 5.</bdi></p>"),
             std::string::npos);
 }

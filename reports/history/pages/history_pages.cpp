@@ -85,12 +85,20 @@ std::span<const FindingGroup> shown_groups(std::span<const FindingGroup> groups)
   return groups.first(std::min(groups.size(), kMostGroups));
 }
 
-/// Adds that others are with the findings of the trends; nothing if a page shows all.
-/// @param groups  How many there are in all.
-void add_rest(std::size_t groups, Section& section) {
-  if (groups > kMostGroups)
-    section.blocks.emplace_back(Paragraph{
-        {{fmt::format("And {} more, among the findings of the trends.", groups - kMostGroups)}}});
+/// Adds how many others there are and where; nothing if a page shows all.
+/// @param groups  All, in order.
+void add_rest(std::span<const FindingGroup> groups, NightlyLinks& links, Section& section) {
+  if (groups.size() <= kMostGroups) return;
+  const auto rest = groups.subspan(kMostGroups);
+  Paragraph paragraph{{{fmt::format("And {} more, among ", rest.size())}}};
+  std::set<std::string> studies;
+  for (const FindingGroup& group : rest) {
+    if (!studies.insert(group.study).second) continue;
+    if (studies.size() > 1) paragraph.phrases.push_back({", "});
+    paragraph.phrases.push_back(links.findings(group.study));
+  }
+  paragraph.phrases.push_back({"."});
+  section.blocks.emplace_back(std::move(paragraph));
 }
 
 /// Figures of the index: its reader sees the course at a glance, the trends have all.
@@ -204,7 +212,7 @@ std::optional<Section> worse_section(const IndexFacts& facts, const NightlySumma
       }
     section.blocks.emplace_back(std::move(block));
   }
-  add_rest(summary.groups.size(), section);
+  add_rest(summary.groups, links, section);
   return section;
 }
 
@@ -375,7 +383,7 @@ HistoryPage trend_page(const StudyTrend& trend, const NightlyFindings& findings,
                   this_run.number, dated_name(this_run));
   const std::vector<FindingGroup> groups =
       grouped(this_run.number, found_on(this_run.number, findings), std::span(&trend, 1), notes);
-  page.report.opening.standing = study_standing(this_run, groups, trend.name, is_compared);
+  page.report.opening.standing = study_standing(this_run, groups, trend.name, is_compared, links);
   std::optional<Phrase> reference;
   if (is_compared && this_run.reference) reference = links.report(*this_run.reference, trend.name);
   page.report.opening.findings.push_back(
@@ -414,7 +422,7 @@ HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& folders) {
                   counted(static_cast<long long>(facts.nightly_runs.size()), "nightly run"),
                   local_time(this_run));
   const NightlySummary summary = last_summary(facts);
-  report.opening.standing = nightly_standing(summary);
+  report.opening.standing = nightly_standing(summary, links);
   if (auto worse = worse_section(facts, summary, links))
     report.sections.push_back(std::move(*worse));
   report.sections.push_back(last_section(facts, summary, links));
@@ -440,9 +448,10 @@ namespace {
 /// What got worse of a study, at the head of its report.
 Section worse_of_study(const StudyOfNightlyRun& study, NightlyLinks& links) {
   Section section{"worse", "What got worse", {}};
-  std::size_t count = 0;
-  for (const FindingGroup& group : study.groups) {
-    if (group.study != study.name || ++count > kMostGroups) continue;
+  std::vector<FindingGroup> of_study;
+  std::ranges::copy_if(study.groups, std::back_inserter(of_study),
+                       [&](const FindingGroup& group) { return group.study == study.name; });
+  for (const FindingGroup& group : shown_groups(of_study)) {
     std::vector<Phrase> to;
     const int before = group.commits.before.number, since = group.commits.since.number;
     if (study.comparisons.contains(comparison_file(before, since, group.study)))
@@ -450,7 +459,7 @@ Section worse_of_study(const StudyOfNightlyRun& study, NightlyLinks& links) {
     to.push_back(links.trends(group.study));
     section.blocks.emplace_back(finding_block(group, std::move(to), links));
   }
-  add_rest(count, section);
+  add_rest(of_study, links, section);
   return section;
 }
 
@@ -498,7 +507,8 @@ void add_nightly_run(Report& report, const StudyOfNightlyRun& study, NightlyLink
   Opening& opening = report.opening;
   report.subtitle +=
       fmt::format("{}{}", report.subtitle.empty() ? "" : "; ", dated_name(nightly_run.facts));
-  opening.standing = study_standing(nightly_run.facts, study.groups, study.name, study.is_compared);
+  opening.standing =
+      study_standing(nightly_run.facts, study.groups, study.name, study.is_compared, links);
   mark_regressed(report, study.figures, study.groups, study.name);
   show_regressed(report, study.groups, study.name);
   put_regressed_first(report, worse_of_study(study, links));

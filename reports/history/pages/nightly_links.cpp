@@ -4,15 +4,21 @@
 
 namespace mapproof {
 
-Phrase NightlyLinks::link(const std::string& path, const std::string& words) {
-  words_[path] = words;
-  return {path, Emphasis::kFile};
+Phrase NightlyLinks::link(const std::string& path, const std::string& words,
+                          const std::string& element) {
+  words_[path + (element.empty() ? "" : "#" + element)] = words;
+  return {path, Emphasis::kFile, element};
 }
 
 Phrase NightlyLinks::index() { return link(folders_.pages + "index.html", "all nightly runs"); }
 
 Phrase NightlyLinks::trends(const std::string& study) {
   return link(fmt::format("{}trends/{}/report.html", folders_.pages, study), "trends of " + study);
+}
+
+Phrase NightlyLinks::findings(const std::string& study) {
+  return link(fmt::format("{}trends/{}/report.html", folders_.pages, study),
+              "all findings of " + study, "section-findings");
 }
 
 Phrase NightlyLinks::report(int nightly_run, const std::string& study) {

@@ -24,6 +24,8 @@ class NightlyLinks {
 
   Phrase index();
   Phrase trends(const std::string& study);
+  /// The findings of all nightly runs on the page of the trends.
+  Phrase findings(const std::string& study);
   /// The page that compares a study of two nightly runs.
   Phrase comparison(int before, int after, const std::string& study);
   /// The page of a commit; its digits alone if its address is not known.
@@ -36,11 +38,11 @@ class NightlyLinks {
   /// The folder of a nightly run of several studies.
   Phrase folder(int nightly_run);
 
-  /// The text of every link that was requested, by its path (see HtmlOptions::link_words).
+  /// The text of every link that was requested (see HtmlOptions::link_words).
   const std::map<std::string, std::string>& words() const { return words_; }
 
  private:
-  Phrase link(const std::string& path, const std::string& words);
+  Phrase link(const std::string& path, const std::string& words, const std::string& element = "");
 
   HistoryFolders folders_;
   std::map<std::string, std::string> words_;

@@ -57,11 +57,15 @@ TEST(HistoryPages, BeginWithThreeFindingsAndSayHowManyMore) {
                                     .since = 5,
                                     .change = i});
   const std::vector<FindingGroup> groups = grouped(5, nightly_run.findings, {}, {});
-  const Standing stands = study_standing(nightly_run.facts, groups, "mine", true);
+  NightlyLinks links({});
+  const Standing stands = study_standing(nightly_run.facts, groups, "mine", true, links);
   EXPECT_EQ(stands.title, "Nightly run 5: accuracy got worse: 7 findings");
-  ASSERT_EQ(stands.sentences.size(), 4U);
+  ASSERT_EQ(stands.sentences.size(), 3U);
   EXPECT_EQ(stands.sentences[2], "method 5: mpe_m +5.0\u00a0%.");
-  EXPECT_TRUE(stands.sentences[3].starts_with("And 4 more findings"));
+  ASSERT_EQ(stands.rest.size(), 1U);
+  EXPECT_EQ(stands.rest[0].phrases[0].text, "And 4 more findings, among ");
+  EXPECT_EQ(stands.rest[0].phrases[1].text, "trends/mine/report.html");
+  EXPECT_EQ(stands.rest[0].phrases[1].element, "section-findings");
   EXPECT_EQ(stands.note, "All of these got worse since nightly run 5.");
 
   const Report index = index_page({.nightly_runs = {nightly_run.facts},
@@ -72,7 +76,8 @@ TEST(HistoryPages, BeginWithThreeFindingsAndSayHowManyMore) {
   EXPECT_EQ(index.subtitle, "1 nightly run, the last begun 2026-11-22 02:30 UTC");
   ASSERT_TRUE(index.opening.standing.has_value());
   EXPECT_TRUE(index.opening.standing->worse);
-  EXPECT_EQ(index.opening.standing->sentences.size(), 4U);
+  EXPECT_EQ(index.opening.standing->sentences.size(), 3U);
+  EXPECT_EQ(index.opening.standing->rest.size(), 1U);
 }
 
 TEST(HistoryPages, ShowTheLastFindingInsteadOfCountingIt) {
@@ -84,7 +89,9 @@ TEST(HistoryPages, ShowTheLastFindingInsteadOfCountingIt) {
                         .since = 5,
                         .change = i});
   const std::vector<FindingGroup> groups = grouped(5, findings, {}, {});
-  const Standing stands = study_standing({.number = 5}, groups, "mine", true);
+  NightlyLinks links({});
+  const Standing stands = study_standing({.number = 5}, groups, "mine", true, links);
+  EXPECT_TRUE(stands.rest.empty());
   ASSERT_EQ(stands.sentences.size(), 4U);
   EXPECT_EQ(stands.sentences[3], "method 1: mpe_m +1.0\u00a0%.");
 }
@@ -314,8 +321,9 @@ TEST(HistoryPages, SayOfANightlyRunThatWasNotComparedThatItWasNot) {
   const NightlyFacts nightly_run{.number = 4};
   EXPECT_EQ(verdict_word(nightly_run), "not compared");
   EXPECT_EQ(verdict_word({.number = 4, .reference = 2}), "passed");
-  EXPECT_TRUE(
-      nightly_standing({.facts = nightly_run}).title.starts_with("Nightly run 4: not compared"));
+  NightlyLinks links({});
+  EXPECT_TRUE(nightly_standing({.facts = nightly_run}, links)
+                  .title.starts_with("Nightly run 4: not compared"));
 }
 
 /// The links of a paragraph, by what they say.

@@ -677,7 +677,11 @@ std::vector<NightlyFinding> many_findings(int count) {
 
 std::string last_words(const Section& section) {
   const auto* last = std::get_if<Paragraph>(&section.blocks.back());
-  return last == nullptr ? "" : last->phrases.front().text;
+  std::string words;
+  if (last != nullptr)
+    for (const Phrase& phrase : last->phrases)
+      words += phrase.text + (phrase.element.empty() ? "" : "#" + phrase.element);
+  return words;
 }
 
 TEST(HistoryPages, ShowTheFirstFindingsOfManyAndEveryNote) {
@@ -691,7 +695,9 @@ TEST(HistoryPages, ShowTheFirstFindingsOfManyAndEveryNote) {
                  {});
   const Section& worse = index.report.sections.at(0);
   EXPECT_EQ(worse.blocks.size(), 31U);
-  EXPECT_EQ(last_words(worse), "And 10 more, among the findings of the trends.");
+  EXPECT_EQ(index.link_words.at("trends/mine/report.html#section-findings"),
+            "all findings of mine");
+  EXPECT_EQ(last_words(worse), "And 10 more, among trends/mine/report.html#section-findings.");
   std::vector<std::string> notes;
   for (const Block& block : index.report.sections.at(1).blocks)
     if (const auto* note = std::get_if<Callout>(&block))
@@ -716,7 +722,8 @@ TEST(NightlyReports, BeginWithTheFirstFindingsOfMany) {
                    .groups = summary.groups},
                   links);
   EXPECT_EQ(report.sections.at(0).blocks.size(), 31U);
-  EXPECT_EQ(last_words(report.sections[0]), "And 470 more, among the findings of the trends.");
+  EXPECT_EQ(last_words(report.sections[0]),
+            "And 470 more, among trends/mine/report.html#section-findings.");
 }
 
 }  // namespace
