@@ -253,7 +253,12 @@ TEST(ResultsComparison, PassesOverLevelsWithoutPairsAndSaysSo) {
   const ResultsStudy study = rows.study();
   const ResultsView view(study);
   const MethodComparison found = compare_methods(view).at(0);
-  EXPECT_EQ(where_of(found), "s, noise 0.2 (nothing to compare at noise 0.4)");
+  EXPECT_EQ(where_of(found),
+            "s, noise 0.2 (no two methods have values in the same runs at noise 0.4)");
+  MethodComparison many = found;
+  many.passed_over = {"noise 1", "noise 2", "noise 3", "noise 4"};
+  EXPECT_TRUE(where_of(many).ends_with(" at noise 1, noise 2 and 2 more levels)"))
+      << where_of(many);
   EXPECT_TRUE(std::isfinite(found.methods[0].mean));
 }
 

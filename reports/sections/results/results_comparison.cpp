@@ -352,8 +352,9 @@ std::string where_of(const MethodComparison& comparison) {
   if (!comparison.level.empty()) text += ", " + comparison.level;
   if (comparison.passed_over.empty()) return text;
   constexpr std::size_t kMostNamed = 3;
-  return text +
-         fmt::format(" (nothing to compare at {})", listed(comparison.passed_over, kMostNamed));
+  return text + fmt::format(" (no two methods have values in the same runs at {}{})",
+                            listed(comparison.passed_over, kMostNamed),
+                            comparison.passed_over.size() > kMostNamed ? " levels" : "");
 }
 
 std::string sentence_of(const MethodComparison& comparison, const ResultsView& view) {

@@ -53,7 +53,7 @@ std::string why_not_compared(const ResultsView& view, const ResultsBlock& block,
 /// Whether the corrected paired test tells a method from the best one.
 bool is_significant(const ComparedMethod& method);
 
-/// "Indoors, noise 0.4 m (nothing to compare at noise 0.8 m)".
+/// "Indoors, noise 0.4 m (no two methods have values in the same runs at noise 0.8 m)".
 std::string where_of(const MethodComparison& comparison);
 
 /// "EKF has the lowest error, 0.12 m (...)": what a comparison came to, in a sentence.
