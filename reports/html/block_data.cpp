@@ -281,16 +281,6 @@ std::vector<std::string> distinct(const std::vector<StatusList::Item>& items, Ge
   return found;
 }
 
-/// "26 more figures: errors over the floor and …", on one line: titles alone where they are short.
-std::string fold_words(const std::vector<std::string>& titles, bool more,
-                       const std::string& folded) {
-  constexpr std::size_t kLongest = 80;  // Characters of a line on a narrow page.
-  const std::string count = counted(std::ssize(titles), more ? "more figure" : "figure");
-  const std::string words = folded.empty() ? listed(titles, 3) : folded;
-  const bool are_too_long = folded.empty() && titles.size() > 1 && words.size() > kLongest;
-  return are_too_long ? count : count + ": " + words;
-}
-
 std::vector<std::string> titles_of(const PageLinks& links) {
   std::vector<std::string> titles;
   for (const PageLinks::Item& item : links.items) titles.push_back(item.title);
@@ -331,6 +321,18 @@ MarkedDrawing marked_drawing(const FigureBlock& figure, const FigureContext& dra
   marked.ringed =
       !rings.empty() && std::ranges::all_of(rings, [](const auto& one) { return one.second > 0; });
   return marked;
+}
+
+std::string folded_words(const Gallery& gallery) {
+  constexpr std::size_t kLongest = 80;  // Characters of a line on a narrow page.
+  std::vector<std::string> titles;
+  for (std::size_t i = gallery.open; i < gallery.figures.size(); ++i)
+    titles.push_back(gallery.figures[i].title);
+  const std::string count =
+      counted(std::ssize(titles), gallery.open > 0 ? "more figure" : "figure");
+  const std::string words = gallery.folded.empty() ? listed(titles, 3) : gallery.folded;
+  const bool are_too_long = gallery.folded.empty() && titles.size() > 1 && words.size() > kLongest;
+  return are_too_long ? count : count + ": " + words;
 }
 
 data figure_data(const FigureBlock& figure, const FigureContext& drawn,
@@ -458,18 +460,15 @@ class BlockVisitor {
 
   void operator()(const Gallery& gallery) {
     list shown, more;
-    std::vector<std::string> titles;
-    for (std::size_t i = 0; i < gallery.figures.size(); ++i) {
+    for (std::size_t i = 0; i < gallery.figures.size(); ++i)
       (i < gallery.open ? shown : more)
           .push_back(figure_data(gallery.figures[i], drawn_, options_));
-      if (i >= gallery.open) titles.push_back(gallery.figures[i].title);
-    }
     data out;
     out.set("any_figures", data(!shown.empty()));
     out.set("figures", shown);
     out.set("any_more", data(!more.empty()));
     out.set("more", more);
-    out.set("more_words", fold_words(titles, !shown.empty(), gallery.folded));
+    out.set("more_words", folded_words(gallery));
     block_.set("gallery", out);
   }
 

@@ -31,6 +31,10 @@ struct MarkedDrawing {
 };
 MarkedDrawing marked_drawing(const FigureBlock& figure, const FigureContext& drawn);
 
+/// The line in place of the figures that a page folds: "26 more figures: errors over the floor and
+/// …", with their titles alone where they are short.
+std::string folded_words(const Gallery& gallery);
+
 /// The data for the figure's template.
 /// @throws InvalidInput if its drawing holds the end tag of the element that holds it.
 kainjow::mustache::data figure_data(const FigureBlock& figure, const FigureContext& drawn,

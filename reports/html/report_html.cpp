@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <set>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -51,7 +52,35 @@ data section_data(const Section& section, const Report& report, const FigureCont
   return out;
 }
 
-/// The sections, those of one study under its name.
+/// Adds a part of a section to the contents, unless it is named as the section is.
+void add_part(const Section& section, std::string element, const std::string& title, list& parts) {
+  if (title.empty() || title == section.title) return;
+  data part;
+  part.set("element", std::move(element));
+  part.set("title", page_text(title_below(section.title, title)));
+  parts.push_back(std::move(part));
+}
+
+/// The tables and figures of a section, those of a gallery that a page folds as one.
+list parts_within(const Section& section) {
+  list parts;
+  for (const Block& block : section.blocks) {
+    if (const auto* table = std::get_if<Table>(&block))
+      add_part(section, "table-" + table->id, table->caption, parts);
+    if (const auto* figure = std::get_if<FigureBlock>(&block))
+      add_part(section, "figure-" + figure->id, figure->title, parts);
+    const auto* gallery = std::get_if<Gallery>(&block);
+    if (gallery == nullptr) continue;
+    const std::size_t open = std::min(gallery->open, gallery->figures.size());
+    for (const FigureBlock& figure : std::span(gallery->figures).first(open))
+      add_part(section, "figure-" + figure.id, figure.title, parts);
+    if (open < gallery->figures.size())
+      add_part(section, "figure-" + gallery->figures[open].id, folded_words(*gallery), parts);
+  }
+  return parts;
+}
+
+/// Two levels: studies and their sections, or sections and their parts.
 list contents(const Report& report) {
   list groups;
   for (std::size_t i = 0; i < report.sections.size();) {
@@ -61,6 +90,9 @@ list contents(const Report& report) {
       data entry;
       entry.set("id", report.sections[i].id);
       entry.set("title", report.sections[i].title);
+      const list parts = first.group.empty() ? parts_within(report.sections[i]) : list();
+      entry.set("any_parts", data(!parts.empty()));
+      entry.set("parts", parts);
       entries.push_back(std::move(entry));
     }
     data group;

@@ -100,4 +100,11 @@ std::string page_text(std::string_view text) {
   return kept;
 }
 
+std::string title_below(std::string_view heading, std::string_view title) {
+  const std::string_view rest =
+      title.starts_with(heading) ? title.substr(heading.size()) : std::string_view();
+  const bool adds = rest.starts_with(", ") || rest.starts_with(": ");
+  return std::string(adds ? rest.substr(2) : title);
+}
+
 }  // namespace mapproof

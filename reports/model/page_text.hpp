@@ -14,4 +14,8 @@ bool is_date(std::string_view text);
 /// @note O(size of the text)
 std::string page_text(std::string_view text);
 
+/// What a title adds to the heading above it: "noise 0.1 m" of "Indoors, noise 0.1 m" or "Indoors:
+/// noise 0.1 m" below "Indoors"; below another heading the whole title.
+std::string title_below(std::string_view heading, std::string_view title);
+
 }  // namespace mapproof

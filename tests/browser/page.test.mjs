@@ -799,12 +799,31 @@ test("at the head of the page the contents start with their first entry", async 
   await close();
 });
 
-test("every entry of the contents links to its section", async () => {
+test("every entry of the contents links to its section, or to a part of it", async () => {
   const { page, close } = await open();
-  const links = await page.locator(".contents a").evaluateAll(
-    (all) => all.map((link) => link.getAttribute("href").slice(1)));
-  assert.ok(links.length > 8);
-  for (const id of links) assert.equal(await page.locator(`section[id="${id}"]`).count(), 1, id);
+  const { sections, parts, lost } = await page.evaluate(() => {
+    const idOf = (link) => link.getAttribute("href").slice(1);
+    const links = [...document.querySelectorAll(".contents a")];
+    const parts = links.filter((link) => link.closest(".parts"));
+    const isIn = (link) => {
+      const of = link.closest(".parts")?.parentElement.querySelector("a") ?? link;
+      const section = document.querySelector(`main > section[id="${idOf(of)}"]`);
+      return section && (of === link || section.querySelector(`[id="${idOf(link)}"]`));
+    };
+    return { sections: links.length - parts.length, parts: parts.length,
+      lost: links.filter((link) => !isIn(link)).map(idOf) };
+  });
+  assert.ok(sections > 8 && parts > 8, `${sections}, ${parts}`);
+  assert.deepEqual(lost, []);
+  await close();
+});
+
+test("the contents show their second level where they stand at the side", async () => {
+  const { page, close } = await open();
+  const parts = page.locator(".contents .parts").first();
+  assert.ok(await parts.isVisible());
+  await page.setViewportSize({ width: 390, height: 844 });
+  assert.ok(!await parts.isVisible());
   await close();
 });
 

@@ -264,6 +264,40 @@ std::size_t count_of(const std::string& text, const std::string& part) {
   return count;
 }
 
+std::string contents_of(const Report& report) {
+  return between(report_html(report, load_templates(), {}), "<nav class=\"contents\"", "</nav>");
+}
+
+TEST(ReportHtml, ListsTheTablesAndFiguresOfASectionBelowItInItsContents) {
+  const Table table{"errors", "Bearing: MPE [m], by observations", {{"Method", "", "", ""}}, {}};
+  Gallery gallery{{{.id = "a", .title = "First map"},
+                   {.id = "b", .title = "Second map"},
+                   {.id = "c", .title = "Third map"}},
+                  1};
+  gallery.folded = "other maps";
+  const Report report{"r",
+                      "",
+                      {{"bearing", "Bearing", {gallery, table}},
+                       {"map", "Map", {FigureBlock{.id = "m", .title = "Map"}}},
+                       {"provenance", "Provenance", {plain("By hand.")}}},
+                      ""};
+  const std::string contents = contents_of(report);
+  EXPECT_EQ(all_matches(contents, "href=\"#([^\"]*)\""),
+            (std::vector<std::string>{"section-bearing", "figure-a", "figure-b", "table-errors",
+                                      "section-map", "section-provenance"}))
+      << "a part named as its section, or no part, is no second level";
+  EXPECT_EQ(all_matches(contents, "<bdi>([^<]*)</bdi>"),
+            (std::vector<std::string>{"First map", "2 more figures: other maps",
+                                      "MPE [m], by observations"}));
+}
+
+TEST(ReportHtml, HasTwoLevelsOfContentsForSeveralStudiesToo) {
+  const std::string contents = contents_of(large_report(2, 1));
+  EXPECT_EQ(count_of(contents, "<ol>"), 3U) << "the studies, and the sections of each";
+  EXPECT_EQ(all_matches(contents, "href=\"#([^\"]*)\""),
+            (std::vector<std::string>{"section-s0-0", "section-s1-0"}));
+}
+
 TEST(ReportHtml, SaysInOneLineWhatAFoldOfFiguresHolds) {
   const auto fold_of = [](Gallery gallery) {
     Report report = large_report(1, 1);

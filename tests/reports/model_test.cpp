@@ -180,6 +180,13 @@ TEST(ReportCheck, RefusesIdsThatStandTwiceAndRowsThatLackCells) {
                InvalidInput);
 }
 
+TEST(TitleBelow, IsWhatATitleAddsToItsHeading) {
+  EXPECT_EQ(title_below("Indoors", "Indoors, noise 0.1 m"), "noise 0.1 m");
+  EXPECT_EQ(title_below("Bearing", "Bearing: MPE [m]"), "MPE [m]");
+  for (const char* other : {"Bearings: MPE", "Bearing", "MPE"})
+    EXPECT_EQ(title_below("Bearing", other), other);
+}
+
 TEST(ReportContents, AreListedInReadingOrderGalleriesIncluded) {
   Report report = report_with({"a", "", {}, {}, {}});
   report.sections[0].blocks.push_back(Gallery{{figure("f1"), figure("f2")}});

@@ -23,6 +23,7 @@
 #include "core/base/text/words.hpp"
 #include "core/evaluate/evaluation_rows.hpp"
 #include "reports/model/format.hpp"
+#include "reports/model/page_text.hpp"
 #include "reports/sections/opening.hpp"
 #include "reports/sections/provenance.hpp"
 #include "reports/sections/results/path_error_figures.hpp"
@@ -161,20 +162,11 @@ void add_grid_section(const ResultsReportInput& input, const std::string& setup,
   sections.push_back({id, group->title, {gallery_of(*group)}});
 }
 
-/// A section's title without the setup's name, under which it stands: "noise 0.1 m" of "Indoors,
-/// noise 0.1 m".
-std::string title_within(const std::string& setup, const std::string& title) {
-  for (const std::string_view mark : {", ", ": "})
-    if (title.starts_with(setup + std::string(mark)))
-      return title.substr(setup.size() + mark.size());
-  return title;
-}
-
 /// Puts a setup's sections under its name; its only one stays alone.
 void put_under(const std::string& setup, std::span<Section> sections) {
   if (setup.empty() || sections.size() < 2) return;
   for (Section& section : sections) {
-    section.title = title_within(setup, section.title);
+    section.title = title_below(setup, section.title);
     section.group = setup;
   }
 }
