@@ -101,6 +101,13 @@ FolderReport topic_report(const std::filesystem::path& folder, const std::string
   FigureGroup maps = topic_maps(study, labelled.name);
   if (!maps.empty()) figures.groups.push_back(std::move(maps));
   const TopicHeadline headline = headline_of(study);
+  std::vector<std::string> headline_figures;
+  if (FigureGroup evidence = topic_evidence(study, labelled, headline); !evidence.empty()) {
+    headline_figures.push_back(evidence.figures.front().id);
+    figures.groups.insert(figures.groups.begin(), std::move(evidence));
+  } else if (!headline.quantity.empty()) {
+    headline_figures = figures_of_quantity(view, headline.quantity);
+  }
   ResultsReportInput input{.view = view,
                            .comparisons = comparisons,
                            .figures = figures,
@@ -111,6 +118,7 @@ FolderReport topic_report(const std::filesystem::path& folder, const std::string
                                                         .value = headline.value,
                                                         .detail = judged_detail(headline),
                                                         .falls_short = headline.falls_short},
+                           .headline_figures = std::move(headline_figures),
                            .incomplete = topic_incomplete(study),
                            .warnings = warnings_and_shortfall(study, headline),
                            .footer = fmt::format("Made by mapproof {} ({}).",

@@ -230,8 +230,13 @@ std::vector<std::string> present_ids(const std::vector<std::string>& ids,
 }
 
 void choose_figures(const std::vector<std::string>& ids, const StudyFigures& figures,
-                    Opening& opening) {
+                    Opening& opening, const std::vector<std::string>& evidence) {
   opening.figure_ids = present_ids(ids, figures, kMostCandidates);
+  if (const auto shown = present_ids(evidence, figures, 1); !shown.empty()) {
+    opening.main_figure = shown.front();
+    std::erase(opening.figure_ids, opening.main_figure);
+    return;
+  }
   if (opening.figure_ids.empty()) return;
   // One that found something, if there is any.
   const auto found_nothing = [&](const std::string& id) {

@@ -29,9 +29,12 @@ std::vector<std::string> in_turns(const std::vector<std::vector<std::string>>& l
 std::vector<std::string> present_ids(const std::vector<std::string>& ids,
                                      const StudyFigures& figures, std::size_t most);
 
-/// Makes the first of the ids that is there the opening's figure, the next ones its small figures.
+/// Makes one of the ids that are there the opening's figure, the others its small figures.
+/// @param evidence  Of figures that show the opening's first number: the first that is there is the
+///                  opening's, whatever it found. Else it is the first of `ids` that found
+///                  something.
 void choose_figures(const std::vector<std::string>& ids, const StudyFigures& figures,
-                    Opening& opening);
+                    Opening& opening, const std::vector<std::string>& evidence = {});
 
 /// The day that it is, YYYY-MM-DD in UTC.
 std::string today_utc();

@@ -112,6 +112,30 @@ TEST(ResultsReport, StatesWhyMethodsAreNotCompared) {
             "MPE; MOE: the methods are not compared, since no two have values in the same runs.");
 }
 
+TEST(ResultsReport, OpensWithTheFigureOfItsHeadline) {
+  const ResultsStudy study = study_of_two_quantities();
+  const ResultsView view(study);
+  StudyFigures figures = results_figures(view, {});
+  const auto report = [&](const std::string& quantity) {
+    return results_report({.view = view,
+                           .comparisons = {},
+                           .figures = figures,
+                           .provenance = {},
+                           .headline = {.label = "mean", .value = "1", .detail = ""},
+                           .headline_figures = figures_of_quantity(view, quantity)});
+  };
+  EXPECT_EQ(report("mpe_m").opening.main_figure, "test-s-mpe-m");
+  EXPECT_EQ(report("moe_percent").opening.main_figure, "test-s-moe-percent");
+  EXPECT_EQ(report("moe_percent").opening.numbers.items.at(0).section, "test-s");
+  // One of several setups stands in the summary, to which the number leads.
+  figures.groups.insert(figures.groups.begin(),
+                        {summary_id("test"), "Summary", "", {Figure{.id = "test-s-mpe-m"}}});
+  const Report over_all = report("mpe_m");
+  EXPECT_EQ(over_all.opening.numbers.items.at(0).section, "test-summary");
+  EXPECT_EQ(over_all.sections.at(0).id, "test-summary");
+  EXPECT_TRUE(std::holds_alternative<Gallery>(over_all.sections.at(0).blocks.back()));
+}
+
 TEST(ResultsReport, SaysWhatTheMapsAreComparedWithAfterTheWarnings) {
   const ResultsStudy study = study_of_two_quantities();
   const ResultsView view(study);

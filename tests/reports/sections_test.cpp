@@ -344,6 +344,10 @@ TEST(Opening, ShowsAFigureThatFoundSomethingFirst) {
   Opening alone;
   choose_figures({"a"}, figures, alone);
   EXPECT_EQ(alone.main_figure, "a") << "if there is any";
+  Opening evident;
+  choose_figures({"b"}, figures, evident, {"lost", "a"});
+  EXPECT_EQ(evident.main_figure, "a") << "what shows the first number, whatever it found";
+  EXPECT_EQ(evident.figure_ids, std::vector<std::string>{"b"});
 }
 
 TEST(StudyOpening, BeginsWithHowThePublishedNumbersCompare) {

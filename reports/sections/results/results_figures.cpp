@@ -201,6 +201,17 @@ std::string why_no_figure(const ResultsView& view, const ResultsBlock& block,
   return view.study().results.are_repeats ? why_no_distribution(view, block, quantity) : "";
 }
 
+std::vector<std::string> figures_of_quantity(const ResultsView& view, const std::string& quantity) {
+  std::vector<std::string> ids;
+  for (const ResultsOverview& overview : view.overviews())
+    ids.push_back(id_below(overview.id, quantity));
+  for (const ResultsBlock& block : view.blocks()) {
+    ids.push_back(data_sets_figure_id(block, view.quantity(quantity)));
+    ids.push_back(id_below(block.id, quantity));
+  }
+  return ids;
+}
+
 StudyFigures results_figures(const ResultsView& view,
                              const std::vector<MethodComparison>& comparisons) {
   StudyFigures figures;

@@ -19,6 +19,10 @@ namespace mapproof {
 StudyFigures results_figures(const ResultsView& view,
                              const std::vector<MethodComparison>& comparisons);
 
+/// The ids of what results_figures() may have of a quantity, the best view of it first: overviews,
+/// then blocks.
+std::vector<std::string> figures_of_quantity(const ResultsView& view, const std::string& quantity);
+
 /// The group of heat maps of a setup whose conditions differ in two factors of numbers: one per
 /// quantity and method, the factor with more levels across. It is empty for other setups, and where
 /// runs are not repeats of each other.

@@ -50,7 +50,7 @@ std::vector<Paragraph> findings_of(const ResultsReportInput& input) {
 /// @param has_opening  The first findings stand above it.
 Section summary_section(const ResultsReportInput& input, bool has_opening) {
   const ResultsStudy& study = input.view.study();
-  Section section{study.name + "-summary", "Summary", {}};
+  Section section{summary_id(study.name), "Summary", {}};
   if (!study.question.empty() && !has_opening) section.blocks.emplace_back(plain(study.question));
   if (!input.incomplete.empty())
     section.blocks.emplace_back(
@@ -72,6 +72,8 @@ Section summary_section(const ResultsReportInput& input, bool has_opening) {
   BulletList findings{findings_of(input)};
   if (findings.items.size() > (has_opening ? kFewComparisons : 0))
     section.blocks.emplace_back(std::move(findings));
+  const auto group = std::ranges::find(input.figures.groups, section.id, &FigureGroup::id);
+  if (group != input.figures.groups.end()) section.blocks.emplace_back(gallery_of(*group));
   return section;
 }
 
@@ -211,6 +213,8 @@ std::vector<Section> sections_of(const ResultsReportInput& input, bool has_openi
 }
 
 }  // namespace
+
+std::string summary_id(const std::string& study) { return study + "-summary"; }
 
 std::vector<Block> given_provenance(const ResultsView& view, const std::string& command) {
   const ResultsStudy& study = view.study();
@@ -456,12 +460,22 @@ std::vector<std::string> warnings_of(const ResultsReportInput& input) {
   return warnings;
 }
 
+/// The section with the figure that shows the headline; the first block's if there is none.
+std::string headline_section(const ResultsReportInput& input) {
+  const std::vector<std::string> ids = present_ids(input.headline_figures, input.figures, 1);
+  for (const FigureGroup& group : input.figures.groups)
+    if (!ids.empty() &&
+        std::ranges::find(group.figures, ids.front(), &Figure::id) != group.figures.end())
+      return group.id;
+  return input.view.blocks().front().id;
+}
+
 Highlights numbers_of(const ResultsReportInput& input, const std::vector<std::string>& warnings) {
   const ResultsStudy& study = input.view.study();
   Highlights numbers;
   if (!input.headline.value.empty()) {
     numbers.items.push_back(input.headline);
-    if (!input.view.blocks().empty()) numbers.items.back().section = input.view.blocks().front().id;
+    if (!input.view.blocks().empty()) numbers.items.back().section = headline_section(input);
   } else {
     add_best_values(input, numbers);
     if (numbers.items.empty()) add_best_over_runs(input, numbers);
@@ -556,7 +570,8 @@ Opening opening_of(const ResultsReportInput& input) {
         opening.findings.begin(),
         Paragraph{{strong("Compared with"), phrase(": " + input.compared_with + ".")}});
   opening.findings.insert(opening.findings.begin(), warnings_paragraph(opening.warnings));
-  choose_figures(figure_ids_of(input.view, input.figures), input.figures, opening);
+  choose_figures(figure_ids_of(input.view, input.figures), input.figures, opening,
+                 input.headline_figures);
   return opening;
 }
 

@@ -21,6 +21,8 @@ struct ResultsReportInput {
   std::vector<std::string> conclusions = {};
   std::string compared_with = {};  ///< What the maps are judged against; empty: each other.
   Highlights::Item headline = {};  ///< The first number of the first screen; no value: none.
+  /// Ids of the figures that show this number: the first that is there is the first screen's.
+  std::vector<std::string> headline_figures = {};
   std::string incomplete = {};     ///< What is still missing, a sentence; empty: nothing.
   std::vector<std::string> warnings = {};  ///< What is wrong with data or maps, a clause each.
   std::vector<std::string> remarks =
@@ -35,6 +37,9 @@ struct ResultsReportInput {
 /// The provenance of results that another program made.
 /// @param command  That writes the report again.
 std::vector<Block> given_provenance(const ResultsView& view, const std::string& command);
+
+/// The id of the section that begins a study's report, and of the group of figures in it.
+std::string summary_id(const std::string& study);
 
 /// The report of a study that is a table of results: what was asked and what came out, then one
 /// section per block with its figures, tables and comparisons, the maps and paths, what it took,

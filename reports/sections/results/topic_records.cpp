@@ -17,6 +17,8 @@
 #include "reports/sections/figures/map_walls.hpp"
 #include "reports/sections/provenance.hpp"
 #include "reports/sections/results/results_conventions.hpp"
+#include "reports/sections/results/results_curves.hpp"
+#include "reports/sections/results/results_view.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/wording.hpp"
 
@@ -136,6 +138,25 @@ FigureGroup topic_maps(const TopicStudy& study, const std::string& prefix) {
   std::ranges::move(singly, std::back_inserter(maps.figures));
   maps.scenes = best_map_scene("scene-" + prefix + "-map", in_space);
   return maps;
+}
+
+FigureGroup topic_evidence(const TopicStudy& study, const ResultsStudy& results,
+                           const TopicHeadline& headline) {
+  FigureGroup group{summary_id(results.name), "Summary", "", {}};
+  const ResultsStudy evidence = evidence_of(study, results);
+  if (headline.value.empty() || evidence.results.rows.empty()) return group;
+  const ResultsView view(evidence);
+  const Quantity& quantity = view.quantity(evidence.quantities.front());
+  std::optional<Figure> figure;
+  if (!view.overviews().empty())
+    figure = overview_figure(view, view.overviews().front(), quantity);
+  else if (view.blocks().front().has_axis())
+    figure = curve_figure(view, view.blocks().front(), quantity);
+  if (!figure) return group;
+  figure->id = id_below(results.name, "headline");
+  figure->title = capitalised(headline.value + " " + headline.label);
+  group.figures.push_back(*std::move(figure));
+  return group;
 }
 
 std::optional<Table> topic_seconds_table(const TopicStudy& study, const std::string& prefix) {

@@ -6,8 +6,11 @@
 #include <vector>
 
 #include "core/model/topic_study.hpp"
+#include "core/results/results_study.hpp"
 #include "reports/model/report.hpp"
+#include "reports/sections/results/results_report.hpp"
 #include "reports/sections/study_figures.hpp"
+#include "reports/sections/topics/topic_text.hpp"
 
 namespace mapproof {
 
@@ -18,6 +21,12 @@ inline constexpr const char* kNoUsableMap = ": no usable map";
 /// which no landmark has a position are named and not drawn.
 /// @param prefix  Begins the ids: "missing" gives "missing-map-ID", "missing-pairs-ID".
 FigureGroup topic_maps(const TopicStudy& study, const std::string& prefix);
+
+/// The figure that shows what the headline's value is the mean of, with the headline as its title;
+/// empty where the figure of its quantity shows it, or the study has too few levels.
+/// @param results  labelled_results() of the study.
+FigureGroup topic_evidence(const TopicStudy& study, const ResultsStudy& results,
+                           const TopicHeadline& headline);
 
 /// Seconds of each series on each data set; empty for a simulated study, or without any.
 std::optional<Table> topic_seconds_table(const TopicStudy& study, const std::string& prefix);

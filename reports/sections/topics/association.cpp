@@ -69,7 +69,8 @@ TopicHeadline association_headline(const TopicStudy& study) {
             fmt::format("{:.0f}\u00a0%", topic_mean(study, at, "estimated", "correct_percent")),
         .label = fmt::format("of landmark IDs corrected, where {:g}\u00a0% are wrong", level),
         .detail = fmt::format("MPE {}; {} with the IDs as given", error_text(estimated),
-                              error_text(given))};
+                              error_text(given)),
+        .quantity = "correct_percent"};
     const auto difference = topic_difference(study, at, "estimated", "given", "mpe_m");
     if (!difference || has_few_layouts(*difference)) return headline;
     headline.falls_short = !is_better(*difference);

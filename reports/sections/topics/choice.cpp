@@ -82,7 +82,8 @@ TopicHeadline choice_headline(const TopicStudy& study) {
   TopicHeadline headline{
       .value = value,
       .label = fmt::format("{} the best map: the map that a criterion picks", words),
-      .detail = "by " + best.label};
+      .detail = "by " + best.label,
+      .quantity = "regret_m"};
   const auto difference =
       topic_difference(study, all_conditions(study), best.id, kFixedMethod, "regret_m");
   if (!difference) return headline;

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <iterator>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace mapproof {
 namespace {
 
 constexpr const char* kFitTest = "slam";
+constexpr const char* kReported = "reported_percent";
 
 std::string doubt_question(const TopicExperiment& experiment) {
   return fmt::format(
@@ -28,10 +30,10 @@ std::string doubt_question(const TopicExperiment& experiment) {
 std::string fault_sentence(const TopicStudy& study, const TopicSetup& setup) {
   std::vector<std::string> parts;
   for (const Condition& at : conditions_of(setup)) {
-    const std::vector<double> reported = topic_values(study, at, kFitTest, "reported_percent");
+    const std::vector<double> reported = topic_values(study, at, kFitTest, kReported);
     if (reported.empty()) continue;
     parts.push_back(fmt::format("{:.0f} % reported and {:.0f} % with the right cause at {}",
-                                topic_mean(study, at, kFitTest, "reported_percent"),
+                                topic_mean(study, at, kFitTest, kReported),
                                 topic_mean(study, at, kFitTest, "named_percent"),
                                 level_words(setup, at)));
   }
@@ -72,7 +74,7 @@ TopicHeadline doubt_headline(const TopicStudy& study) {
       continue;
     }
     for (const Condition& at : conditions_of(setup))
-      for (const double reported : topic_values(study, at, kFitTest, "reported_percent"))
+      for (const double reported : topic_values(study, at, kFitTest, kReported))
         sum += reported, count += 1.0;
   }
   if (count == 0.0) return {};
@@ -81,12 +83,39 @@ TopicHeadline doubt_headline(const TopicStudy& study) {
     detail = fmt::format("alarms in {:.3g}\u00a0% of {:g} fault-free logs", alarms, logs);
   constexpr double kMostAlarms = 5.0;  // Percent, the level of the test.
   const bool is_over = alarms > kMostAlarms;
-  return {fmt::format("{:.0f}\u00a0%", sum / count), "of faults in range-only logs reported",
+  return {fmt::format("{:.0f}\u00a0%", sum / count),
+          "of faults in range-only logs reported",
           std::move(detail),
           logs == 0.0 ? ""
           : is_over   ? "more alarms than the 5\u00a0% aimed at"
                       : "no more alarms than the 5\u00a0% aimed at",
-          is_over};
+          is_over,
+          kReported};
+}
+
+/// The share of each fault that is reported over its size, in one figure.
+ResultsStudy reported_faults(const ResultsStudy& results) {
+  ResultsStudy study;
+  study.name = results.name;
+  study.title = results.title;
+  study.quantities = {kReported};
+  study.quantity_labels = results.quantity_labels;
+  study.factors = results.factors;
+  study.results.quantities = results.results.quantities;
+  study.results.are_repeats = results.results.are_repeats;
+  std::set<std::string> faults;
+  for (const Result& row : results.results.rows) {
+    if (row.quantity != kReported || row.at.levels.empty()) continue;
+    faults.insert(row.at.setup);
+    Result& reported = study.results.rows.emplace_back(row);
+    reported.at = {.levels = row.at.levels};
+    reported.method = row.at.setup;
+  }
+  for (const Label& setup : results.setups)
+    if (faults.contains(setup.id)) study.methods.push_back(setup);
+  sort_results(study.results);
+  complete(study);
+  return study;
 }
 
 }  // namespace
@@ -96,6 +125,7 @@ const TopicWords kDoubtWords = {
     .question = doubt_question,
     .compared_with = "the known faults of the logs, and logs without faults",
     .conclusions = doubt_conclusions,
-    .headline = doubt_headline};
+    .headline = doubt_headline,
+    .evidence = reported_faults};
 
 }  // namespace mapproof

@@ -80,10 +80,12 @@ TopicHeadline incremental_headline(const TopicStudy& study) {
       topic_mean(study, condition_at(first, last), methods[0], "steps_gone_through");
   if (std::isnan(through)) return {};
   constexpr double kSame_ppm = 1.0;
-  return {fmt::format("{:g} of {:g}", through, last), "observations used by an update of a map",
+  return {fmt::format("{:g} of {:g}", through, last),
+          "observations used by an update of a map",
           gap_words(greatest) + " at most from the map computed again",
           greatest < kSame_ppm ? "the same map, for less work" : "not the same map",
-          greatest >= kSame_ppm};
+          greatest >= kSame_ppm,
+          "steps_gone_through"};
 }
 
 }  // namespace

@@ -116,7 +116,8 @@ TopicHeadline mixed_headline(const TopicStudy& study) {
     const auto difference = topic_difference(study, at, mix.method->id, single.method->id, "mpe_m");
     TopicHeadline headline{.value = error_text(mix.mean_m),
                            .label = "MPE of several sensors together, " + level_words(setup, at),
-                           .detail = {}};
+                           .detail = {},
+                           .quantity = "mpe_m"};
     const std::string alone = "the best sensor alone";
     if (!difference || has_few_layouts(*difference)) {
       headline.detail = fmt::format("{} {}", alone, error_text(single.mean_m));

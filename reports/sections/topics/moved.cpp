@@ -95,12 +95,14 @@ TopicHeadline moved_headline(const TopicStudy& study) {
   const double still = named_without_move(study);
   constexpr double kLevel = 5.0;  // Percent.
   return {fmt::format("{:.0f}\u00a0%", named),
-          "of moved landmarks named, " + level_words(setup, at), "",
+          "of moved landmarks named, " + level_words(setup, at),
+          "",
           std::isnan(still)
               ? std::string()
               : fmt::format("{:.1f}\u00a0% named where nothing moves, {:.0f}\u00a0% aimed at",
                             still, kLevel),
-          still > kLevel};
+          still > kLevel,
+          "named_percent"};
 }
 
 }  // namespace

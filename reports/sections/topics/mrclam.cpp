@@ -133,7 +133,8 @@ TopicHeadline mrclam_headline(const TopicStudy& study) {
               ? fmt::format("usable on all of {}", counted(std::ssize(together), "data set"))
               : fmt::format("no usable map of {} of {}", failed,
                             counted(std::ssize(study.parts), "data set")),
-          failed > 0};
+          failed > 0,
+          "mpe_m"};
 }
 
 }  // namespace

@@ -84,7 +84,8 @@ TopicHeadline references_headline(const TopicStudy& study) {
             fmt::format("MPE by {}, {}", info(*method_named(name)).label, level_words(setup, at)),
         .detail = fmt::format("{} by {}; the maps differ by {:.2g} % of their size",
                               error_text(exact_m), info(exact_method).label,
-                              topic_mean(study, at, approximate, "gap_percent"))};
+                              topic_mean(study, at, approximate, "gap_percent")),
+        .quantity = "mpe_m"};
     if (difference)
       judge(headline, *difference,
             verdict_words(*difference) + ", compared with all landmarks as references");

@@ -90,7 +90,8 @@ TopicHeadline submaps_headline(const TopicStudy& study) {
   TopicHeadline headline{
       .value = error_text(parts),
       .label = "MPE of joined sub-maps, " + level_words(setup, at),
-      .detail = fmt::format("of the whole map {}; {}", error_text(whole), label(setting))};
+      .detail = fmt::format("of the whole map {}; {}", error_text(whole), label(setting)),
+      .quantity = "mpe_m"};
   if (difference)
     judge(headline, *difference, verdict_words(*difference) + ", compared with the whole map");
   return headline;

@@ -128,8 +128,10 @@ TopicHeadline sweep_headline(const TopicStudy& study) {
         where = fmt::format("greatest by {}, {}", bracketed(method.label), level_words(setup, at));
       }
   if (least > greatest) return {};
-  return {error_text(least) + " to " + error_text(greatest),
-          "mean MPE over all worlds, sensors and anchors", std::move(where)};
+  return {.value = error_text(least) + " to " + error_text(greatest),
+          .label = "mean MPE over all worlds, sensors and anchors",
+          .detail = std::move(where),
+          .quantity = "mpe_m"};
 }
 
 }  // namespace

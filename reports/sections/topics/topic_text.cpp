@@ -67,6 +67,11 @@ std::vector<std::string> warnings_of(const TopicStudy& study) {
                                                         : words->warnings(study);
 }
 
+ResultsStudy evidence_of(const TopicStudy& study, const ResultsStudy& results) {
+  const TopicWords* words = words_of(study.experiment.topic);
+  return words == nullptr || words->evidence == nullptr ? ResultsStudy{} : words->evidence(results);
+}
+
 TopicHeadline headline_of(const TopicStudy& study) {
   const TopicWords* words = words_of(study.experiment.topic);
   const bool knows = words != nullptr && words->headline != nullptr && !study.parts.empty();

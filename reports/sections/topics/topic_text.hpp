@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/model/topic_study.hpp"
+#include "core/results/results_study.hpp"
 #include "core/statistics/intervals.hpp"
 
 namespace mapproof {
@@ -19,6 +20,7 @@ struct TopicHeadline {
   /// aimed at.
   std::string verdict = {};
   bool falls_short = false;
+  std::string quantity = {};  ///< Of the design, that the value is of: its figure comes first.
 };
 
 /// Judges a headline by a tested difference, which falls short if it is worse. Of too few layouts
@@ -47,6 +49,9 @@ struct TopicWords {
   /// What came out, with numbers, a sentence each.
   std::vector<std::string> (*conclusions)(const TopicStudy& study) = nullptr;
   TopicHeadline (*headline)(const TopicStudy& study) = nullptr;
+  /// What the headline's value is the mean of, as a study of one setup and quantity, from the
+  /// results of all; null: the figure of its quantity shows it.
+  ResultsStudy (*evidence)(const ResultsStudy& results) = nullptr;
   /// What is wrong with the data or the maps, a sentence each; null: nothing is looked for.
   std::vector<std::string> (*warnings)(const TopicStudy& study) = nullptr;
 };
@@ -69,6 +74,9 @@ std::vector<std::string> conclusions_of(const TopicStudy& study);
 
 /// None of a topic that looks for nothing.
 std::vector<std::string> warnings_of(const TopicStudy& study);
+
+/// TopicWords::evidence of the study's topic; without a quantity if it has none.
+ResultsStudy evidence_of(const TopicStudy& study, const ResultsStudy& results);
 
 /// Without a value for a topic that is not known, or without any part.
 TopicHeadline headline_of(const TopicStudy& study);

@@ -93,7 +93,8 @@ TopicHeadline uncertainty_headline(const TopicStudy& study) {
           "of landmarks have the method\u2019s mean map in their 95\u00a0% ellipse",
           "by method and level",
           fmt::format("the 93 to 97\u00a0% aimed at are met {}", meeting_words(covered)),
-          !std::ranges::all_of(covered, meets_aim)};
+          !std::ranges::all_of(covered, meets_aim),
+          "mean_covered_percent"};
 }
 
 }  // namespace

@@ -1,14 +1,19 @@
 #include "reports/sections/topics/topic_text.hpp"
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "core/records/studies/results_of.hpp"
 #include "core/topics/topic.hpp"
 #include "core/topics/topics.hpp"
+#include "reports/sections/results/topic_records.hpp"
+#include "reports/sections/topics/topic_means.hpp"
 
 namespace mapproof {
 namespace {
@@ -146,6 +151,71 @@ TEST(TopicWords, OfMissingDataJudgeTheStrategyByTheBetterOfTheOthers) {
   EXPECT_EQ(verdict(0.25, 4), "");
   const TopicStudy study = study_of(kMissingTopic, 4, "mpe_m", {{"ppca-smacof-knn", 0.2}});
   EXPECT_TRUE(conclusions_of(study).at(0).ends_with("in 4 layouts.")) << conclusions_of(study)[0];
+}
+
+TEST(TopicWords, NameTheQuantityOfEveryHeadline) {
+  for (const Topic* topic : all_topics()) {
+    if (topic->of_data || topic->sweeps) continue;
+    TopicStudy study = empty_study(*topic);
+    TopicPart& part = study.parts.emplace_back();
+    for (const Condition& at : all_conditions(study))
+      for (const StudiedMethod& method : study.design.methods) {
+        TopicOutcome& outcome = part.outcomes.emplace_back();
+        outcome.at = at;
+        outcome.method = method.id;
+        for (const Quantity& quantity : study.design.quantities) outcome.values[quantity.id] = 50.0;
+      }
+    const TopicHeadline headline = headline_of(study);
+    EXPECT_FALSE(headline.value.empty()) << topic->name;
+    EXPECT_NE(std::ranges::find(study.design.quantities, headline.quantity, &Quantity::id),
+              study.design.quantities.end())
+        << topic->name << ": " << headline.quantity;
+  }
+}
+
+/// All values of a curve over the panels of a figure.
+std::vector<double> values_of(const Figure& figure, const std::string& label) {
+  std::vector<double> values;
+  for (const Panel& panel : figure.panels)
+    for (const Layer& layer : panel.layers)
+      if (const auto* line = std::get_if<Polyline>(&layer); line != nullptr && line->label == label)
+        values.insert(values.end(), line->y.begin(), line->y.end());
+  return values;
+}
+
+TEST(TopicEvidence, IsWhatTheHeadlineOfMissingDataIsTheMeanOf) {
+  const TopicStudy study =
+      study_of(kMissingTopic, 5, "mpe_m",
+               {{"auto", 0.25}, {"pairwise-complete-smacof-knn", 0.3}, {"ppca-smacof-knn", 0.2}});
+  const FigureGroup group = topic_evidence(study, labelled_results(study), headline_of(study));
+  ASSERT_EQ(group.figures.size(), 1U);
+  const Figure& figure = group.figures.front();
+  EXPECT_EQ(figure.title, "0.0515 m worse than the best map: the strategy chosen for missing data");
+  EXPECT_EQ(figure.panels.size(), study.design.setups.size());
+  const std::vector<double> chosen = values_of(figure, "chosen by the pattern of missing data");
+  EXPECT_EQ(chosen.size(), all_conditions(study).size());
+  for (const double value : chosen) EXPECT_NEAR(value, 0.0515, 1e-9);
+  for (const double value : values_of(figure, "always PPCA")) EXPECT_EQ(value, 0.0);
+}
+
+TEST(TopicEvidence, OfFaultsIsTheShareOfEachThatIsReported) {
+  TopicStudy study = study_of(kDoubtTopic, 5, "reported_percent", {{"slam", 50.0}});
+  for (TopicPart& part : study.parts)
+    for (TopicOutcome& outcome : part.outcomes)
+      if (outcome.at.setup == Name("late-clock")) outcome.values["reported_percent"] = 90.0;
+  const TopicHeadline headline = headline_of(study);
+  const FigureGroup group = topic_evidence(study, labelled_results(study), headline);
+  ASSERT_EQ(group.figures.size(), 1U);
+  EXPECT_EQ(group.figures.front().title, headline.value + " of faults in range-only logs reported");
+  const std::vector<double> late = values_of(group.figures.front(), "Ranges stamped 5 s late");
+  EXPECT_EQ(late.size(), list_option(study.experiment, "sizes_percent").size());
+  for (const double value : late) EXPECT_EQ(value, 90.0);
+}
+
+TEST(TopicEvidence, IsNoneWhereTheFigureOfTheQuantityIsEnough) {
+  const TopicStudy study =
+      study_of(kSubmapsTopic, 5, "mpe_m", {{"parts-smacof-knn", 0.2}, {"whole-smacof-knn", 0.1}});
+  EXPECT_TRUE(topic_evidence(study, labelled_results(study), headline_of(study)).empty());
 }
 
 TEST(TopicWords, OfMovedLandmarksNameOthersAtTheSameLevelsAlone) {
