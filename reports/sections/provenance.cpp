@@ -125,7 +125,9 @@ Table durations_table(const Durations& durations) {
           NumberCell{1e3 * duration.longest, 2}, NumberCell{duration.seconds, 2}},
          "",
          false});
-  table.notes.push_back("Seconds vary from run to run and are not part of any comparison.");
+  table.notes.push_back(
+      "Seconds differ from one start of the program to the next and are not part of any "
+      "comparison.");
   return table;
 }
 

@@ -185,8 +185,8 @@ StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
       condition_figures(source), 0, Interest::kFew);
   add("cost", "Accuracy against seconds",
       "Seconds of one map beyond what the methods of a history share: distances, the order of "
-      "neighbours, and the map that a method starts from. They differ from one run of the program "
-      "to the next.",
+      "neighbours, and the map that a method starts from. They differ from one start of the "
+      "program to the next.",
       cost_figures(source, timings), kFiguresOpen, Interest::kFew);
   return figures;
 }

@@ -159,11 +159,12 @@ TEST(ResultsReport, NamesTheWarningsOfRunsOnTheFirstScreen) {
   const Report report =
       results_report({.view = view, .comparisons = {}, .figures = {}, .provenance = {}});
   EXPECT_EQ(report.opening.findings.at(0).phrases.at(1).text,
-            ": 2 of 4 runs of a method have warnings: uncertified (2) and not Euclidean (1).");
+            ": 2 of 4 outcomes of methods have warnings: uncertified (2) and not Euclidean (1).");
   EXPECT_EQ(report.opening.numbers.items.back().label, "warning");
-  EXPECT_EQ(report.opening.warnings,
-            std::vector<std::string>{"2 of 4 runs of a method have warnings: uncertified (2) and "
-                                     "not Euclidean (1)"});
+  EXPECT_EQ(
+      report.opening.warnings,
+      std::vector<std::string>{"2 of 4 outcomes of methods have warnings: uncertified (2) and "
+                               "not Euclidean (1)"});
 }
 
 TEST(ResultsReport, MarksTheTileOfFewAssociatedPoses) {

@@ -10,7 +10,7 @@
 
 namespace mapproof::test {
 
-/// How a run of the program ended.
+/// How a start of the program ended.
 struct Outcome {
   int exit_code = -1;  ///< -1: ended by a signal.
   std::string out;

@@ -459,8 +459,9 @@ Figure pareto_figure(const ParetoSpec& spec) {
 
   figure.caption =
       "Mean error against the median time per map, that of the maps it starts from included, a "
-      "point per setting; filled: no other is both faster and better. Times are of one run of the "
-      "program and differ from run to run.";
+      "point per setting; filled: no other is both faster and better. Times are of one start of "
+      "the "
+      "program and differ from one to the next.";
   figure.alt = fmt::format("{} against the time per map for {}.", spec.y_label,
                            counted(static_cast<long long>(errors.size()), "setting"));
   if (!layers.words.empty())

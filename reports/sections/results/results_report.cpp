@@ -423,7 +423,7 @@ std::string diverged_methods(const ResultsView& view) {
   return listed(texts, kMostDiverged);
 }
 
-/// "20 of 92 runs of a method have warnings: uncertified (12) and not Euclidean (7)", the most
+/// "20 of 92 outcomes of methods have warnings: uncertified (12) and not Euclidean (7)", the most
 /// frequent first; empty if all ended well.
 std::string warnings_of_runs(const ResultsStudy& study) {
   std::map<std::string, long long> runs;  // By code.
@@ -440,7 +440,7 @@ std::string warnings_of_runs(const ResultsStudy& study) {
   for (const auto& [code, count] : order)
     names.push_back(fmt::format("{} ({})", code_words(code), count_text(count)));
   constexpr std::size_t kMostNamed = 4;
-  return fmt::format("{} of {} runs of a method {} warnings: {}", count_text(with_warnings),
+  return fmt::format("{} of {} outcomes of methods {} warnings: {}", count_text(with_warnings),
                      count_text(std::ssize(study.results.outcomes)),
                      with_warnings == 1 ? "has" : "have", listed(names, kMostNamed));
 }

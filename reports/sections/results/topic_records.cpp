@@ -179,8 +179,8 @@ std::optional<Table> topic_seconds_table(const TopicStudy& study, const std::str
     if (any) table.rows.push_back(std::move(line));
   }
   table.notes.emplace_back(
-      "Seconds of making the map; reading the files is not part of them. They differ from one run "
-      "of the program to the next; what the whole run took is under Provenance.");
+      "Seconds of making the map; reading the files is not part of them. They differ from one "
+      "start of the program to the next; what the whole study took is under Provenance.");
   if (table.rows.empty()) return std::nullopt;
   return table;
 }

@@ -345,7 +345,7 @@ StudyFigures slam_figures(const SlamStudy& study, const SlamTimings& timings) {
         history_figures(*study.histories));
   if (!timings.factorization.empty())
     add(kSlamCost, "Range-only SLAM: cost",
-        "Seconds differ from one run of the program to the next.",
+        "Seconds differ from one start of the program to the next.",
         {factorization_cost_figure("factorization-cost", timings.factorization)});
   return figures;
 }

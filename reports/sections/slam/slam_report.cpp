@@ -230,7 +230,7 @@ std::optional<Section> cost_section(const SlamReportInput& input) {
           ? figures_section(*figures)
           : Section{kSlamCost,
                     "Range-only SLAM: cost",
-                    {plain("Seconds differ from one run of the program to the next.")}};
+                    {plain("Seconds differ from one start of the program to the next.")}};
   section.interest = Interest::kFew;
   if (is_of_paper(input.study))
     section.blocks.emplace_back(plain(

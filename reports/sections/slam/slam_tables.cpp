@@ -291,7 +291,7 @@ std::optional<Table> slam_seconds_table(const SlamStudy& study,
   table.notes = {
       "A method's own time, without the choice of windows and without the estimate it "
       "starts from.",
-      "Times vary from run to run and are not part of any comparison."};
+      "Times differ from one start of the program to the next and are not part of any comparison."};
   if (std::ranges::any_of(study.runs, [](const SlamRun& run) { return run.fit.has_value(); }))
     table.notes.insert(table.notes.begin() + 1,
                        fmt::format("Where the fit was tested, {} also estimates the noise, which "

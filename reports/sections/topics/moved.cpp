@@ -16,7 +16,7 @@ std::string moved_question(const TopicExperiment& experiment) {
       "Landmarks are seen with range and bearing from up to {:g} m. One of them is at another "
       "position from a random step in the middle half on. Is it named, is another one named, and "
       "how far off is "
-      "the step? Each run tries {:g} landmarks, one at a time.",
+      "the step? Each simulated run tries {:g} landmarks, one at a time.",
       number_option(experiment, "reach_m"), number_option(experiment, "tried"));
 }
 
