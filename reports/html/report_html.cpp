@@ -164,8 +164,9 @@ const void* family_of(const Report& report, const FigureBlock& figure) {
   return &figure;
 }
 
-/// The first few figures of the opening, no two of one family or with equal words. A small image is
-/// of a figure's first panel: none shows what the large figure or another small image shows.
+/// The first few figures of the opening, no two of one family. A small image is of a figure's first
+/// panel: none shows what the large figure or another small image shows. Where its short title is
+/// that of another, it has the whole one, which says in what they differ.
 list thumbnails(const Report& report) {
   constexpr std::size_t kMost = 6;
   list shown;
@@ -173,11 +174,15 @@ list thumbnails(const Report& report) {
   std::set<const void*> families;
   std::set<std::uint64_t> panels;
   const FigureBlock* main_figure = figure_of(report, report.opening.main_figure);
-  if (main_figure != nullptr) panels.insert(main_figure->shows.begin(), main_figure->shows.end());
+  if (main_figure != nullptr) {
+    panels.insert(main_figure->shows.begin(), main_figure->shows.end());
+    titles = {main_figure->title, short_title(main_figure->title)};
+  }
   for (const std::string& id : report.opening.figure_ids) {
     const FigureBlock* figure = figure_of(report, id);
-    if (figure == nullptr || figure == main_figure || titles.size() == kMost) continue;
-    const std::string title = short_title(figure->title);
+    if (figure == nullptr || figure == main_figure || shown.size() == kMost) continue;
+    std::string title = short_title(figure->title);
+    if (titles.contains(title)) title = figure->title;
     const void* family = family_of(report, *figure);
     const std::uint64_t panel = figure->shows.empty() ? 0 : figure->shows.front();
     if (titles.contains(title) || families.contains(family)) continue;

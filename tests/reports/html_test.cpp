@@ -77,7 +77,7 @@ TEST(ReportHtml, HasNoInlineStyleOrHandlerThatItsPolicyWouldBlock) {
   EXPECT_TRUE(all_matches(page, "<[a-z]+[^>]* (on[a-z]+)=").empty());
 }
 
-TEST(ReportHtml, ShowsNoTwoSmallFiguresOfOneKindOrTitle) {
+TEST(ReportHtml, ShowsNoTwoSmallFiguresOfOneKindAndNamesEachInAnotherWay) {
   const auto figure = [](const std::string& id, const std::string& title) {
     return FigureBlock{id, title, "c", "a", {}};
   };
@@ -94,8 +94,18 @@ TEST(ReportHtml, ShowsNoTwoSmallFiguresOfOneKindOrTitle) {
   const std::string page = report_html(report, load_templates(), {});
   const std::string small = between(page, "<ul class=\"thumbnails\">", "</ul>");
   EXPECT_EQ(all_matches(small, "href=\"#figure-([^\"]*)\""),
-            (std::vector<std::string>{"a-1", "b", "d"}));
-  EXPECT_NE(small.find("<bdi>Relative errors over distance, in percent</bdi>"), std::string::npos);
+            (std::vector<std::string>{"a-1", "b", "c", "d"}));
+  EXPECT_EQ(all_matches(small, "<bdi>([^<]*)</bdi>"),
+            (std::vector<std::string>{
+                "First map", "Relative errors over distance, in percent",
+                "Relative errors over distance, in percent: SLAM drifts least", "A path"}));
+  report.opening.main_figure = "b";
+  const std::string beside_main = report_html(report, load_templates(), {});
+  EXPECT_EQ(
+      all_matches(between(beside_main, "<ul class=\"thumbnails\">", "</ul>"), "<bdi>([^<]*)</bdi>"),
+      (std::vector<std::string>{
+          "First map", "Relative errors over distance, in percent: SLAM drifts least", "A path"}))
+      << "nor as the large figure";
   // What is elsewhere is said after all that is here.
   EXPECT_GT(page.find("1 figure is on page 2."), page.find("id=\"section-two\""));
 }
