@@ -3,11 +3,14 @@
 
 const kDarkColours = {
   "#ffffff": "#15181c", "#1a1a1a": "#e6e9ed", "#000000": "#ffffff",  // Paper, text, lines.
-  "#757575": "#9aa3ad", "#bababa": "#5b646e", "#e4e4e4": "#2b3138",  // Muted, faint, grid.
+  "#757575": "#9aa3ad", "#bababa": "#656b73", "#e4e4e4": "#2b3138",  // Muted, faint, grid.
   "#0072b2": "#4ba6e0", "#d55e00": "#f08a3c", "#009e73": "#2cc79a", "#7a3300": "#ffef66",
   "#332288": "#a37294", "#c66fa1": "#de9cc2", "#cc2244": "#ee4455", "#9977ff": "#8866ff",
   "#006666": "#55eeff", "#a33c00": "#f3ac72",  // The last: warnings.
 };
+
+// Lines with gaps are paler than their colour: muted ones have a stronger one in the dark.
+const kMuted = "#757575", kDarkDashed = "#c8cdd3";
 
 function isDarkPage() {
   const theme = document.documentElement.dataset.theme;
@@ -25,6 +28,7 @@ function addFigureColours() {
     }
     add(`.cell-text[fill="${light}"] { fill: ${light}; }`);  // The cells below keep theirs, too.
   }
+  add(`[stroke="${kMuted}"][stroke-dasharray] { stroke: light-dark(${kMuted}, ${kDarkDashed}); }`);
   add(".drawing { background: light-dark(#ffffff, #15181c); }");
 }
 
@@ -89,6 +93,8 @@ function inPageColours(text) {
   if (!isDarkPage()) return withoutDarkPalettes(text);
   return text.replace(/base64,([^"]*)" data-dark="([^"]*)"/g,
     (all, png, palette) => `base64,${inPalette(png, palette)}"`)
+    .replaceAll(new RegExp(`stroke="${kMuted}"(?=[^>]* stroke-dasharray)`, "g"),
+      `stroke="${kDarkDashed}"`)
     .replace(/(class="cell-text" )?(fill|stroke)="(#[0-9a-f]{6})"/g,
       (all, cell, name, colour) => (cell ? all : `${name}="${kDarkColours[colour] ?? colour}"`));
 }

@@ -285,7 +285,8 @@ bool bands_hide_each_other(const Panel& panel) {
 
 Stroke stroke_of(ThemeColour colour, Dash dash, double width, const Theme& theme) {
   const double width_pt = width * theme.line_pt;
-  return {theme.of(colour), width_pt, dash_lengths(dash, width_pt)};
+  return {dash == Dash::kSolid ? theme.of(colour) : theme.of_dashed(colour), width_pt,
+          dash_lengths(dash, width_pt)};
 }
 
 Shape filled_shape(Fill fill, ThemeColour colour, const Theme& theme) {

@@ -42,8 +42,9 @@ Shape leader_line(Point at, Point end, const Theme& theme) {
   leader.path.move_to({std::lerp(at.x, end.x, rim), std::lerp(at.y, end.y, rim)});
   leader.path.line_to(end);
   // Dotted and grey: else it would be read as a line of data, such as an error from the same mark.
-  leader.stroke =
-      Stroke{theme.muted, theme.hairline_pt, {theme.hairline_pt, 2 * theme.hairline_pt}};
+  leader.stroke = Stroke{theme.of_dashed(ThemeColour::kMuted),
+                         theme.hairline_pt,
+                         {theme.hairline_pt, 2 * theme.hairline_pt}};
   return leader;
 }
 

@@ -30,13 +30,17 @@ Colour Theme::of(ThemeColour colour) const {
     case ThemeColour::kMuted:
       return muted;
     case ThemeColour::kFaint:
-      return mix(muted, background, 0.5);
+      return mix(muted, background, faint);
     case ThemeColour::kWarning:
       return warning;
     default:
       return series[static_cast<std::size_t>(colour) -
                     static_cast<std::size_t>(ThemeColour::kSeries1)];
   }
+}
+
+Colour Theme::of_dashed(ThemeColour colour) const {
+  return colour == ThemeColour::kMuted ? mix(text, muted, dashed) : of(colour);
 }
 
 Theme report_theme() {
@@ -64,6 +68,8 @@ Theme dark_theme() {
   theme.grid = colour(0x2B3138);
   theme.warning = colour(0xF3AC72);
   theme.series = kDarkSeriesColours;
+  theme.faint = 0.6;
+  theme.dashed = 0.6;
   return theme;
 }
 

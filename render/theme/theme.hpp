@@ -29,8 +29,12 @@ struct Theme {
 
   Colour background, text, muted, grid, warning;
   std::array<Colour, kSeriesCount> series;
+  double faint = 0.5;   ///< Share of kMuted in kFaint; the rest is the background.
+  double dashed = 0.0;  ///< Share of the text's colour in kMuted of lines with gaps.
 
   Colour of(ThemeColour colour) const;
+  /// Of a line with gaps, which make it paler.
+  Colour of_dashed(ThemeColour colour) const;
 };
 
 /// For screens: 600 x 450 pt, 1200 x 900 px.

@@ -8,7 +8,7 @@ namespace mapproof {
 enum class ThemeColour {
   kText,
   kMuted,    ///< Helps the eye; still at least 3:1 against the background.
-  kFaint,    ///< Of wide lines and areas below others: half way from kMuted to the background.
+  kFaint,    ///< Of wide lines and areas below others: between kMuted and the background.
   kWarning,  ///< Text about a warning or a failure.
   kSeries1,
   kSeries2,

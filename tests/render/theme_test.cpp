@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include "core/base/errors.hpp"
+#include "render/plot/layers.hpp"
 #include "render/theme/font.hpp"
 #include "render/theme/palette.hpp"
 #include "render/theme/ticks.hpp"
@@ -146,6 +147,26 @@ TEST(Theme, TextAndLinesCanBeRead) {
     EXPECT_GE(contrast(theme.warning, theme.background), 4.5);
     EXPECT_GE(contrast(theme.muted, theme.background), 3.0);
   }
+}
+
+TEST(Theme, LinesOfReferenceStandOutFromADarkPage) {
+  const Theme dark = dark_theme();
+  EXPECT_GE(contrast(dark.of(ThemeColour::kFaint), dark.background), 3.0);
+  // Dots and gaps as the eye takes them together.
+  const std::vector<double> lengths = dash_lengths(Dash::kDotted, 1.0);
+  const Colour seen = mix(dark.of_dashed(ThemeColour::kMuted), dark.background,
+                          lengths.at(0) / (lengths.at(0) + lengths.at(1)));
+  EXPECT_GE(contrast(seen, dark.background), 3.0) << hex(seen);
+  EXPECT_EQ(hex(report_theme().of_dashed(ThemeColour::kMuted)), hex(report_theme().muted));
+}
+
+TEST(Theme, GivesDottedLinesTheColourOfLinesWithGaps) {
+  const Theme dark = dark_theme();
+  const auto of = [&](Dash dash) {
+    return hex(stroke_of(ThemeColour::kMuted, dash, 1.0, dark).colour);
+  };
+  EXPECT_EQ(of(Dash::kSolid), hex(dark.muted));
+  EXPECT_EQ(of(Dash::kDotted), hex(dark.of_dashed(ThemeColour::kMuted)));
 }
 
 TEST(Theme, PaperHasTheWidthOfItsColumn) {

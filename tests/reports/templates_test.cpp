@@ -63,7 +63,13 @@ TEST(Templates, HaveTheColoursOfTheDarkTheme) {
   EXPECT_EQ(dark_colour_of(light.background), hex(dark.background));
   EXPECT_EQ(dark_colour_of(light.text), hex(dark.text));
   EXPECT_EQ(dark_colour_of(light.muted), hex(dark.muted));
+  EXPECT_EQ(dark_colour_of(light.of(ThemeColour::kFaint)), hex(dark.of(ThemeColour::kFaint)));
   EXPECT_EQ(dark_colour_of(light.grid), hex(dark.grid));
+  EXPECT_NE(load_templates(std::nullopt)
+                .files.at("report_dark.js")
+                .find("kMuted = \"" + hex(light.muted) + "\", kDarkDashed = \"" +
+                      hex(dark.of_dashed(ThemeColour::kMuted)) + "\""),
+            std::string::npos);
   EXPECT_EQ(dark_colour_of(light.warning), hex(dark.warning));
   for (std::size_t i = 0; i < light.series.size(); ++i)
     EXPECT_EQ(dark_colour_of(light.series[i]), hex(dark.series[i]));
