@@ -70,14 +70,15 @@ function makeOrder() {
   document.querySelector(".order").hidden = false;
 }
 
-// A small image of each item in the list, of the same bytes as on its stage.
+// A small image of each item in the list, of the same bytes as on its stage. Those that the program
+// drew follow the theme.
 function addThumbnails() {
   for (const item of items) {
     const image = item.querySelector(".current img") ?? item.querySelector(".baseline img") ??
       item.querySelector(".change img");
     if (!image) continue;
     const small = document.createElement("img");
-    small.className = image.closest(".change") ? "thumbnail drawn" : "thumbnail";
+    small.className = image.closest(".change, .drawn") ? "thumbnail drawn" : "thumbnail";
     small.alt = "";
     small.loading = "lazy";
     small.decoding = "async";

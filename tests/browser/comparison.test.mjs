@@ -77,6 +77,37 @@ test("a pinch of two fingers zooms a comparison between them", options, async ()
   await close();
 });
 
+// Mean lightness of what the screen shows of an element, 0 to 255.
+async function lightness(page, element) {
+  const png = (await element.screenshot()).toString("base64");
+  return page.evaluate(async (bytes) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${bytes}`;
+    await image.decode();
+    const canvas = new OffscreenCanvas(image.width, image.height), context = canvas.getContext("2d");
+    context.drawImage(image, 0, 0);
+    const { data } = context.getImageData(0, 0, image.width, image.height);
+    return data.reduce((sum, value, i) => sum + (i % 4 < 3 ? value : 0), 0) / (data.length * .75);
+  }, png);
+}
+
+test("thumbnails of figures are dark on a dark page, those of foreign images are as they are", options,
+  async () => {
+    const { page, close } = await openComparison({ colorScheme: "dark" });
+    for (const small of await page.locator(".thumbnail").all()) {
+      const mean = await lightness(page, small);
+      assert.ok(mean < 100, `${mean}`);
+    }
+    await page.evaluate(() => {
+      for (const each of document.querySelectorAll(".thumbnail")) each.remove();
+      for (const each of document.querySelectorAll(".stage")) each.classList.remove("drawn");
+      addThumbnails();
+    });
+    const foreign = await lightness(page, page.locator(".thumbnail").first());
+    assert.ok(foreign > 150, `${foreign}`);
+    await close();
+  });
+
 test("a comparison is printed without its controls, its images below each other", options,
   async () => {
     const { page, close } = await openComparison();

@@ -65,8 +65,9 @@ data pane_data(const ShownImage& image, const SideName& name, const std::string&
   return out;
 }
 
-data stage_data(const ShownImages& shown, const std::string& id, const DiffResult& all) {
+data stage_data(const DiffItem& item, const ShownImages& shown, const DiffResult& all) {
   if (shown.format.empty()) return data(false);
+  const std::string id = printable(item.id, kMostName);
   list panes;
   if (shown.baseline)
     panes.push_back(pane_data(*shown.baseline, {"baseline", "Baseline", shown_baseline(all)}, id));
@@ -75,6 +76,7 @@ data stage_data(const ShownImages& shown, const std::string& id, const DiffResul
   data out;
   out.set("both", shown.baseline.has_value() && shown.current.has_value());
   out.set("has_heat", shown.heat.has_value());
+  out.set("drawn", !item.baseline_figure.empty() || !item.current_figure.empty());
   if (shown.heat) panes.push_back(pane_data(*shown.heat, {"heat", "Heat map", ""}, id));
   out.set("panes", panes);
   out.set("format", shown.format);
@@ -134,7 +136,7 @@ data item_data(const DiffItem& item, const ShownImages& shown, const DiffResult&
   out.set("refused", refusal != nullptr);
   out.set("with_records", refusal != nullptr && refusal->goes_with_records);
   out.set("refusal", refusal ? printable(refusal->why, kMostCause) : std::string());
-  out.set("stage", stage_data(shown, id, all));
+  out.set("stage", stage_data(item, shown, all));
   out.set("change", change_data(shown, id));
   out.set("no_heat", text_or_false(shown.no_heat));
   out.set("cluster", cluster_data(shown));

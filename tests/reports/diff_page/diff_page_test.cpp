@@ -134,6 +134,15 @@ TEST(DiffPage, IsTheSameWhetherTheComparisonKeptTheHeatMapsOrNot) {
   }
 }
 
+TEST(DiffPage, TellsFiguresThatHaveAValueFromForeignImages) {
+  const test::TemporaryFolder folder;
+  DiffResult result = test::compared_folders(folder.path());
+  EXPECT_EQ(all_matches(page_of(result), "class=\"stage[^\"]* (drawn)\"").size(), 0U);
+  std::ranges::find(result.items, "added", &DiffItem::id)->current_figure = folder / "b/added.json";
+  std::ranges::find(result.items, "gone", &DiffItem::id)->baseline_figure = folder / "a/gone.json";
+  EXPECT_EQ(all_matches(page_of(result), "class=\"stage[^\"]* (drawn)\"").size(), 2U);
+}
+
 TEST(DiffPage, RefusesAnImageThatWasComparedAndIsNotWhatItsNameSays) {
   const test::TemporaryFolder folder;
   for (const auto& [side, x] : {std::pair{"a", 20}, {"b", 90}}) {
