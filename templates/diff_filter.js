@@ -12,9 +12,10 @@ function applyFilter() {
   const count = Array.from(all).filter(shown).length;
   const isWhole = count === all.length;
   document.querySelector(".found").textContent = isWhole ? "" : `${count} of ${all.length} shown`;
-  const identical = by("identical");
-  if (identical) identical.hidden = !identical.querySelector("li:not([hidden])");
-  if (identical && !isWhole) unfold(identical);
+  for (const fold of document.querySelectorAll("#identical, .further")) {
+    fold.hidden = !fold.querySelector("li:not([hidden]), .item:not([hidden])");
+    if (!isWhole) unfold(fold);
+  }
   if (atHand && !shown(atHand)) {
     const first = items.find(shown);
     if (first) setAtHand(first);
@@ -46,7 +47,7 @@ function makeChips() {
   }
 }
 
-// The order in which the page came is by verdict.
+// The order in which the page came is by verdict. The places of the items stay, folded ones too.
 function makeOrder() {
   const places = new Map(items.map((item, place) => [item, place]));
   const byPlace = (a, b) => places.get(a) - places.get(b);
@@ -55,15 +56,15 @@ function makeOrder() {
     share: (a, b) => Number(b.dataset.share) - Number(a.dataset.share) || byPlace(a, b),
     name: (a, b) => a.dataset.name.localeCompare(b.dataset.name) || byPlace(a, b),
   };
-  const end = document.createComment("");
-  items.at(-1).after(end);
+  const marks = items.map((item) => document.createComment(item.id));
+  items.forEach((item, i) => item.before(marks[i]));
   by("order").addEventListener("change", () => {
     items.sort(compare[by("order").value]);
     const list = document.querySelector(".index");
-    for (const item of items) {
-      end.before(item);
+    items.forEach((item, i) => {
+      marks[i].after(item);
       list.append(entryOf.get(item.id));
-    }
+    });
     const first = items.find(shown);
     if (first) setAtHand(first);
   });

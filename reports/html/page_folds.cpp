@@ -84,6 +84,8 @@ double height_of(const BulletList& bullets) {
   return all;
 }
 
+}  // namespace
+
 double height_of(const Block& block) {
   if (const auto* paragraph = std::get_if<Paragraph>(&block)) return height_of(*paragraph);
   if (const auto* table = std::get_if<Table>(&block)) return height_of(*table);
@@ -104,6 +106,8 @@ double height_of(const Block& block) {
     all = 3.0 * height::kText;
   return all;
 }
+
+namespace {
 
 double height_of(const Section& section) {
   double all = height::kSection;

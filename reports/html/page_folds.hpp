@@ -10,6 +10,9 @@ namespace mapproof {
 /// Of its phrases, bytes.
 std::size_t characters_of(const Paragraph& paragraph);
 
+/// On a page 1280 pixels wide, in pixels; what is folded has the height of its fold.
+double height_of(const Block& block);
+
 /// Folds parts of a page until it has some fifteen screens, and no more of them than that takes:
 /// first what stands behind the first tables and figures of a section, then sections for few
 /// readers and for some, then the same of sections that most readers want: figures, tables, the

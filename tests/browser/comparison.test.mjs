@@ -108,6 +108,31 @@ test("thumbnails of figures are dark on a dark page, those of foreign images are
     await close();
   });
 
+test("the comparison of two studies has 15 screens at most, and its last items are found", options,
+  async () => {
+    const { page, errors, close } = await open({}, comparison, "whole.html");
+    const screens = await page.evaluate(async () => {
+      for (const item of items) item.style.contentVisibility = "visible";
+      for (const image of document.images) image.loading = "eager";
+      await Promise.all(Array.from(document.images, (image) => image.decode().catch(() => {})));
+      return document.documentElement.scrollHeight / innerHeight;
+    });
+    assert.ok(screens > 4 && screens <= 15, `${screens} screens`);
+    const last = page.locator("article.item").last(), id = await last.getAttribute("data-name");
+    await page.locator("#search").fill(id);
+    assert.ok(await last.locator("h2").isVisible());
+    await page.locator("#search").fill("");
+    // By another order, too, the items that are folded are the last ones.
+    const folded = await page.locator(".further .item").count();
+    await page.locator("#order").selectOption("name");
+    assert.equal(await page.locator(".further .item").count(), folded);
+    const names = await page.locator("article.item").evaluateAll(
+      (all) => all.map((each) => each.dataset.name));
+    assert.deepEqual(names, [...names].sort((a, b) => a.localeCompare(b)));
+    assert.deepEqual(errors, []);
+    await close();
+  });
+
 test("a comparison is printed without its controls, its images below each other", options,
   async () => {
     const { page, close } = await openComparison();

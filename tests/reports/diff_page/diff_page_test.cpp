@@ -85,21 +85,40 @@ TEST(DiffPage, ListsIdenticalImagesButDoesNotHoldThem) {
   EXPECT_LT(many.size(), page.size() + 300 * 300);
 }
 
-TEST(DiffPage, FoldsImagesBehindTheFirstItemsOfManyAndCountsThem) {
+TEST(DiffPage, FoldsTheImagesOfTheLastItemsOfManyAndCountsThem) {
   const test::TemporaryFolder folder;
   DiffResult result = test::compared_folders(folder.path());
-  EXPECT_EQ(count_of(page_of(result), "<summary>3 images"), 0) << "a few items are open";
   const auto moved = std::ranges::find(result.items, "moved", &DiffItem::id);
   ASSERT_NE(moved, result.items.end());
-  result.items = std::vector<DiffItem>(9, *moved);
-  for (std::size_t i = 0; i < result.items.size(); ++i)
-    result.items[i].id = "moved-" + std::to_string(i);
-  const std::string page = page_of(result);
-  const std::vector<std::string> folds =
-      all_matches(page, "<details class=\"fold\" open>\\s*<summary>([^<]*image[^<]*)</summary>");
-  ASSERT_EQ(folds.size(), 6U);
-  EXPECT_TRUE(folds.front().starts_with("3 images")) << folds.front();
+  const DiffItem one = *moved;
+  const auto page_of_many = [&](std::size_t count) {
+    result.items = std::vector<DiffItem>(count, one);
+    for (std::size_t i = 0; i < count; ++i) result.items[i].id = "moved-" + std::to_string(i);
+    return page_of(result);
+  };
+  EXPECT_EQ(count_of(page_of_many(9), "<summary>3 images"), 0) << "a few items are open";
+  const std::string page = page_of_many(40);
+  const int folds = count_of(page, "<summary>3 images");
+  EXPECT_GT(folds, 20);
+  EXPECT_LT(folds, 38);
   EXPECT_GT(page.find("<summary>3 images"), page.find("id=\"figure-moved-3\""));
+  EXPECT_GT(page.rfind("<summary>3 images"), page.find("id=\"figure-moved-39\""));
+  EXPECT_EQ(count_of(page, "class=\"fold further\""), 0) << "each has its name and its cause";
+}
+
+TEST(DiffPage, FoldsTheLastItemsThatManyScreensWouldNotHold) {
+  const test::TemporaryFolder folder;
+  DiffResult result = test::compared_folders(folder.path());
+  const DiffItem one = result.items.front();
+  result.items = std::vector<DiffItem>(300, one);
+  for (std::size_t i = 0; i < 300; ++i) result.items[i].id = "item-" + std::to_string(i);
+  const std::string page = page_of(result);
+  const std::size_t fold = page.find("class=\"fold further\"");
+  ASSERT_NE(fold, std::string::npos);
+  EXPECT_TRUE(std::regex_search(page.substr(fold, 100), std::regex("<summary>\\d+ more items<")));
+  EXPECT_LT(page.find("<article id=\"figure-item-40\""), fold);
+  EXPECT_GT(page.find("<article id=\"figure-item-299\""), fold);
+  EXPECT_EQ(count_of(page, "<article "), 300);
 }
 
 TEST(DiffPage, MakesAHeatMapOfPngsAndSvgsThatDifferUnlessTheirSizesDo) {
