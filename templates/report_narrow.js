@@ -102,13 +102,13 @@ function thinLabels(svg, labels) {
   });
 }
 
-// What moves words that end right of the frame back into it, as far as there is room.
-function backInto(frame, x, width) {
-  const over = x + width - frame.right;
+// What moves words back that end right of `end`, as far as there is room in the frame.
+function backInto(frame, end, x, width) {
+  const over = x + width - end;
   return over <= 0 ? 0 : Math.max(-over, Math.min(0, frame.x - x));
 }
 
-function narrowPart(svg, part, { before, after, across, down, at, marks }) {
+function narrowPart(svg, part, { before, after, across, down, at, marks, beside }) {
   const elements = [part, ...part.querySelectorAll("*")];
   for (const element of elements.filter((each) => !each.closest("[transform*='scale(']"))) {
     if (element.localName === "path") {
@@ -134,7 +134,9 @@ function narrowPart(svg, part, { before, after, across, down, at, marks }) {
         : { x: middle.x > before.right ? after.right - before.right : 0, y: at(middle).y - middle.y };
     } else {
       shift = shiftOfWords(words, box, marks, before, after, at);
-      if (kindOf(part) === "mark-label") shift.x += backInto(after, box.x + shift.x, box.width);
+      // Names that stood in the frame stay in it, those beside it in the room there.
+      const end = after.right + (box.x + box.width <= before.right ? 0 : beside);
+      if (kindOf(part) === "mark-label") shift.x += backInto(after, end, box.x + shift.x, box.width);
     }
     moveWords(svg, words, shift.x, shift.y);
   }
@@ -177,7 +179,7 @@ function narrowFrames(svg, parts, rooms, most, height = Infinity) {
     after.right = after.x + after.width;
     after.bottom = after.y + after.height;
     const { marks } = contentOf(panel, before);
-    const change = { before, after, across, down, at,
+    const change = { before, after, across, down, at, beside: rooms.right - kEdge,
       marks: marks.map(({ element, x, y }) => ({ element, x, y })) };
     const axes = parts.axes.filter((label, k) => owners[k] === frame)
       .map((label) => ({ label, box: boxIn(svg, label) }));

@@ -220,13 +220,15 @@ function sharedAxes(svg, parts, step, shift = kNoShift, shown = parts.frames[ste
   return layer;
 }
 
+const kEdge = 4;  // Between what stands around a frame and the edge.
+
 // What a panel needs around its frame, the greatest of all panels, for headings and labels.
 function roomsOf(svg, parts) {
-  const rooms = { left: 4, above: 4, right: 6, below: 6 };
+  const rooms = { left: kEdge, above: kEdge, right: 6, below: 6 };
   const see = (box, frame) => {
-    rooms.left = Math.max(rooms.left, frame.x - box.x + 4);
-    rooms.above = Math.max(rooms.above, frame.y - box.y + 4);
-    rooms.right = Math.max(rooms.right, box.x + box.width - frame.right + 4);
+    rooms.left = Math.max(rooms.left, frame.x - box.x + kEdge);
+    rooms.above = Math.max(rooms.above, frame.y - box.y + kEdge);
+    rooms.right = Math.max(rooms.right, box.x + box.width - frame.right + kEdge);
     rooms.below = Math.max(rooms.below, box.y + box.height - frame.bottom);
   };
   parts.panels.forEach((panel, i) => {
@@ -237,8 +239,8 @@ function roomsOf(svg, parts) {
   for (const label of parts.axes) {
     const box = boxIn(svg, label), frame = frameOfLabel(label, parts.frames);
     if (!frame) return null;  // Of a colour bar.
-    if (isUpright(label)) rooms.left = Math.max(rooms.left, frame.x - box.x + 4);
-    else rooms.below = Math.max(rooms.below, box.y + box.height - frame.bottom + 4);
+    if (isUpright(label)) rooms.left = Math.max(rooms.left, frame.x - box.x + kEdge);
+    else rooms.below = Math.max(rooms.below, box.y + box.height - frame.bottom + kEdge);
   }
   return rooms;
 }

@@ -486,6 +486,28 @@ test("a figure that got narrower on a phone keeps its data where its axes count 
   wide.forEach((share, i) => assert.ok(Math.abs(share - narrow[i]) < .01, `${share} ${narrow[i]}`));
 });
 
+test("on a phone every method has its name beside a diagram of ranks, and no line through it", async () => {
+  const { page, close } = await open({ viewport: { width: 390, height: 844 } });
+  for (const id of ["ranks-bearing", "ranks-visibility"]) {
+    const shown = await figure(page, id);
+    const names = await shown.locator(".drawing > svg").evaluate((svg) => {
+      const box = svg.parentElement.getBoundingClientRect();
+      const lines = [...svg.querySelectorAll("g.line path")].map((each) => each.getBoundingClientRect());
+      const from = Math.min(...lines.map(({ left }) => left));
+      const to = Math.max(...lines.map(({ right }) => right));
+      return [...svg.querySelectorAll('.mark-label g[transform*="scale("]')]
+        .filter((words) => /^(?!CD).* \d+\.\d\d$/.test(words.dataset.words))
+        .map((words) => [words.dataset.words, words.getBoundingClientRect()])
+        .map(([words, { left, right, width }]) => ({ words,
+          isShown: width > 0 && left >= box.left && right <= box.right,
+          isBeside: right <= from + 1 || left >= to - 1 }));
+    });
+    assert.equal(names.length, 10);
+    assert.deepEqual(names.filter(({ isShown, isBeside }) => !isShown || !isBeside), [], id);
+  }
+  await close();
+});
+
 test("on a phone the tick labels of a y axis end at one line, the lowest one, too", async () => {
   const { page, close } = await open({ viewport: { width: 390, height: 844 } });
   const shown = await figure(page, "fig-4");
