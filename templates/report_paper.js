@@ -8,14 +8,17 @@ function belowTitle(svg, parts) {
   const feet = heads.map((part) => part.getBBox()).map(({ y, height }) => y + height);
   const kGap = 3, top = Math.max(...feet) + kGap;
   const { x, y, width, height } = parts.whole;
-  const ends = [...svg.querySelectorAll(":scope > g")].map((part) => part.getBBox());
-  const end = Math.min(y + height, Math.max(...ends.map((box) => box.y + box.height)) + kGap);
+  const ends = [...svg.querySelectorAll(":scope > g")].map((part) => {
+    const box = part.getBBox();
+    return box.y + box.height + shiftOf(part).y;
+  });
+  const end = Math.min(y + height, Math.max(...ends) + kGap);
   const isHead = heads.length > 0 && top > y && parts.frames.every((frame) => frame.y >= top);
   return isHead ? { heads, box: { x, y: top, width, height: end - top } } : null;
 }
 
 const kPaperDrawing_px = 582;  // 154 mm.
-const kMostDrawn_px = 450;  // Less than half of a page: a higher drawing would leave the rest empty.
+const kMostDrawn_px = 340;  // With its heading two fifths of a page: so much can be left empty.
 
 // Where the rows of panels begin, below the first one: above the titles of their panels.
 function rowTops(parts) {
@@ -31,6 +34,37 @@ function rowTops(parts) {
     }
   }
   return rows.map(({ top }) => top).sort((a, b) => a - b).slice(1);
+}
+
+// What stands below all frames, as a legend: it moves with them.
+function partsBelow(parts) {
+  const bottom = Math.max(...parts.frames.map((frame) => frame.bottom));
+  return parts.rest.filter((part) => part.getBBox().y >= bottom);
+}
+
+// Makes the frames of one row lower by up to `excess`, maps and images also narrower, as far as all
+// words keep their room. Returns what undoes it.
+function lowerRow(svg, parts, excess) {
+  const rooms = parts.panels.length > 0 && rowTops(parts).length === 0 ? roomsOf(svg, parts) : null;
+  if (!rooms || excess <= 0) return () => {};
+  const greatest = (name) => Math.max(...parts.frames.map((frame) => frame[name]));
+  const width = greatest("width"), height = greatest("height"), below = partsBelow(parts);
+  const bottom = greatest("bottom"), kMostLower = .3;
+  const undo = () => {
+    widenFrames(svg, parts);
+    movePanel(below, kNoShift);
+  };
+  for (const share of [1, .75, .5, .25]) {
+    const lower = height - share * Math.min(excess, kMostLower * height);
+    const hasMaps = parts.frames.some((frame, i) => hasOneScale(parts.panels[i], frame));
+    const most = hasMaps ? width * lower / height + rooms.left + rooms.right : Infinity;
+    narrowFrames(svg, parts, rooms, most, lower);
+    const isWhole = widths.get(svg).attributes.every(([, name]) => name !== "display");
+    movePanel(below, { x: 0, y: greatest("bottom") - bottom });
+    if (isWhole) return undo;
+    undo();
+  }
+  return () => {};
 }
 
 // The box of a drawing in slices of whole rows of panels, about as high as each other.
@@ -73,15 +107,19 @@ function showSlices(svg, slices, width_px) {
 function setTitleAsText(svg) {
   const drawing = svg.parentElement;
   if (drawing.matches(".stacked, .stepped, .zoomed")) return () => {};
-  const parts = partsOf(svg), shown = svg.getAttribute("viewBox"), below = belowTitle(svg, parts);
-  if (!below) return () => {};
+  const parts = partsOf(svg), shown = svg.getAttribute("viewBox"), drawn = belowTitle(svg, parts);
+  if (!drawn) return () => {};
   addDrawnTitle(svg, parts);
-  for (const part of below.heads) part.classList.add("off");
   // The smallest words have 8 pt: a wider drawing would take the room of a second one.
-  const words_px = kPaperWords_px / leastWords(svg) * below.box.width;
+  const words_px = kPaperWords_px / leastWords(svg) * drawn.box.width;
   const width_px = Math.min(words_px > 0 ? words_px : kPaperDrawing_px, kPaper_px);
+  const widen = lowerRow(svg, parts,
+    drawn.box.height - kMostDrawn_px * drawn.box.width / width_px);
+  const below = belowTitle(svg, parts);
+  for (const part of below.heads) part.classList.add("off");
   showSlices(svg, slicesOf(parts, below.box, width_px), width_px);
   return () => {
+    widen();
     for (const copy of drawing.parentElement.querySelectorAll(".slice")) copy.remove();
     svg.closest("figure")?.classList.remove("sliced");
     for (const part of below.heads) part.classList.remove("off");
