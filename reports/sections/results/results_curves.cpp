@@ -445,6 +445,8 @@ std::optional<Figure> overview_figure(const ResultsView& view, const ResultsOver
   spec.great_errors = view.has_great_errors(quantity);
   spec.has_runs = view.runs() > 1;
   spec.record_ids = {record_of(*overview.blocks.front())};
+  // A difference from the best is often 0, which no logarithmic axis has.
+  if (quantity.id.starts_with("regret_")) spec.log_from = HUGE_VAL;
   std::vector<std::string> joined;
   std::vector<std::vector<ErrorLine>> judged;
   for (std::size_t i = 0; i < overview.blocks.size(); ++i) {

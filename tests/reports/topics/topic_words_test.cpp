@@ -77,6 +77,7 @@ TopicStudy study_of(const Topic& topic, int layouts, const std::string& quantity
   for (int layout = 1; layout <= layouts; ++layout) {
     TopicPart& part = study.parts.emplace_back();
     part.run = RunId{layout, 1};
+    part.id = slug(*part.run);
     for (const TopicSetup& setup : study.design.setups)
       for (const Condition& at : conditions_of(setup))
         for (const auto& [method, mean] : means)
