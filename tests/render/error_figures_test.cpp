@@ -211,6 +211,22 @@ TEST(BestLine, OfAFamilyIsCalledSo) {
             "after 3 steps, all of the 2 on a neighbour graph have an MPE of 0.250\u00A0m");
 }
 
+TEST(BestLine, TiesWithNothingThatDiverged) {
+  const ErrorLine a = three_points("A", {0.1, 0.1, 0.1}, 0.01),
+                  b = three_points("B", {0.3, 0.3, 0.3}, 0.01),
+                  c = three_points("C", {1e4, 1e8, 1e6}, 1e9);
+  EXPECT_EQ(best_over({a, b, c}, {}, {"noise"}), "A has the lowest MPE throughout");
+  EXPECT_EQ(best_over({a, c}, {}, {"noise"}), "A has the lowest MPE throughout");
+  EXPECT_EQ(best_of_points({{a, b, c}}, {}), "A has the lowest MPE at all points");
+  EXPECT_EQ(best_over({b, three_points("B too", {0.3, 0.3, 0.3}, 0.01), c}, {}, {"noise"}),
+            "B and B too have the lowest MPE throughout");
+  // By how much says nothing.
+  EXPECT_EQ(best_over({c, three_points("D", {1e5, 1e5, 1e5}, 1.0)}, {}, {"noise"}), "");
+  LineQuantity distance;
+  distance.great_errors = false;
+  EXPECT_EQ(best_over({a, c}, distance, {"noise"}), "");
+}
+
 TEST(BestLine, IsNoneWhereIntervalsOrShownDigitsTie) {
   EXPECT_EQ(best_over({three_points("A", {1, 2, 3}, 0.3), three_points("B", {1.5, 2.5, 3.5}, 0.3)},
                       {}, {"noise"}),
@@ -444,6 +460,7 @@ TEST(ErrorLinesFigure, EndsItsAxisAtTheCeilingAndCountsWhatLiesAbove) {
                          .low = {},
                          .high = {}});
   panel.points.push_back({"printed", "one", 2.0, 1e6, Marker::kSquare});
+  spec.great_errors = false;
   spec.ceiling = 50.0;
   const Figure figure = error_lines_figure(spec);
   EXPECT_LT(figure.panels[0].y.limits->high, 100.0);
@@ -458,6 +475,31 @@ TEST(ErrorLinesFigure, EndsItsAxisAtTheCeilingAndCountsWhatLiesAbove) {
   EXPECT_LT(above.y.at(0), figure.panels[0].y.limits->high);
   EXPECT_GT(above.y.at(0), 30.0);
   spec.ceiling = 1e12;
+  EXPECT_TRUE(error_lines_figure(spec).notes.empty());
+}
+
+TEST(ErrorLinesFigure, SaysInANoteWhatDivergedAndDoesNotWidenItsFrameByIt) {
+  ErrorLinesSpec spec;
+  spec.id = "lines";
+  spec.panels.resize(1);
+  spec.panels[0].lines = {three_points("A", {0.1, 0.2, 0.3}, 0.05),
+                          three_points("B", {1e5, 0.4, 1e9}, 0.05),
+                          three_points("C", {2e6, 3e6, 4e6}, 1e9)};
+  spec.panels[0].lines[1].key = "b";
+  spec.panels[0].lines[2].key = "c";
+  const Figure figure = error_lines_figure(spec);
+  EXPECT_EQ(figure.panels[0].y.scale, Scale::kLinear);
+  EXPECT_LT(figure.panels[0].y.limits->high, 1.0);
+  ASSERT_FALSE(figure.notes.empty());
+  EXPECT_EQ(figure.notes.back().text, "Diverged, over 1\u00A0km: B at 2 of 3 points and C.");
+  EXPECT_EQ(figure.alt.find("e+"), std::string::npos) << figure.alt;
+  const Scatter above = layers_of<Scatter>(figure.panels[0]).back();
+  const std::pair<std::string, std::string> over{"over", "1000"};
+  EXPECT_NE(std::ranges::find(above.marks.at(0).data, over), above.marks.at(0).data.end());
+  // Where all are that large, they are distances of that size.
+  spec.panels[0].lines = {three_points("C", {2e6, 3e6, 4e6}, 1.0)};
+  EXPECT_GT(error_lines_figure(spec).panels[0].y.limits->high, 4e6);
+  spec.great_errors = false;
   EXPECT_TRUE(error_lines_figure(spec).notes.empty());
 }
 

@@ -1,12 +1,15 @@
 #include "reports/sections/results/results_figures.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 
 #include <gtest/gtest.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/text/error_text.hpp"
 #include "core/base/text/slug.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "reports/sections/results/given_figures.hpp"
@@ -316,6 +319,30 @@ TEST(ResultsFigures, ManyLinesMayLackValuesAtALevel) {
   for (const Layer& layer : figures.groups.at(0).figures.at(0).panels.at(0).layers)
     if (const auto* line = std::get_if<Polyline>(&layer)) labels.push_back(line->label);
   EXPECT_EQ(labels, (std::vector<std::string>{"m and 2 others", "p and q", "r and s"}));
+}
+
+TEST(ResultsFigures, WhatDivergedSpoilsNeitherTitleNorAxis) {
+  Rows curves, runs;
+  for (const std::string run : {"a", "b", "c", "d", "e", "f"}) {
+    const double some = 0.001 * (run[0] - 'a'), drift = std::pow(10.0, 3 + run[0] - 'a');
+    for (const double keyframes : {100.0, 200.0}) {
+      const std::vector<Level> at = {{"keyframes", keyframes}};
+      curves.add("ekf", run, 0.1 + some, at).add("graph", run, 0.02 + some, at);
+      curves.add("odometry", run, drift, at);
+    }
+    runs.add("ekf", run, 0.1 + some).add("graph", run, 0.02 + some).add("odometry", run, drift);
+  }
+  for (Rows& rows : {std::ref(curves), std::ref(runs)}) {
+    const ResultsStudy study = rows.study();
+    const ResultsView view(study);
+    const Figure figure = results_figures(view, {}).groups.at(0).figures.at(0);
+    EXPECT_NE(figure.title.find("graph has the lowest"), std::string::npos) << figure.title;
+    const Panel& panel = figure.panels.at(0);
+    EXPECT_LT((&rows == &curves ? panel.y : panel.x).limits->high, 1.0 + kGreatestError_m);
+    ASSERT_FALSE(figure.notes.empty());
+    EXPECT_TRUE(figure.notes.back().text.starts_with("Diverged, over 1\u00A0km: odometry"))
+        << figure.notes.back().text;
+  }
 }
 
 TEST(ResultsFigures, LinesOnEachOtherAreOneThatSaysOfHowMany) {

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/base/text/error_text.hpp"
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
@@ -69,7 +70,7 @@ std::string has_the_best(const LineQuantity& quantity, bool several) {
 }
 
 std::string value_text(double value, const LineQuantity& quantity) {
-  return quantity_text(value, quantity.unit);
+  return quantity.has_diverged(value) ? kGreatErrorText : quantity_text(value, quantity.unit);
 }
 
 std::vector<std::string> value_texts(const std::vector<double>& values,
@@ -111,9 +112,10 @@ bool are_shown_alike(const At& a, const At& b, const LineQuantity& quantity) {
 }
 
 /// Whether no reader should rank two values: their intervals overlap, or the digits shown are
-/// equal.
+/// equal. The interval of what diverged reaches far down and shows nothing.
 bool tie(const At& a, const At& b, const LineQuantity& quantity) {
-  return overlap(a, b) || are_shown_alike(a, b, quantity);
+  const bool are_usual = !quantity.has_diverged(a.mean()) && !quantity.has_diverged(b.mean());
+  return (are_usual && overlap(a, b)) || are_shown_alike(a, b, quantity);
 }
 
 /// Those that tie with the best, the best first, and the others, ascending from the best on.
@@ -231,6 +233,10 @@ std::string places(const LineAxis& axis, const std::vector<double>& some, std::s
 }
 
 }  // namespace
+
+bool LineQuantity::has_diverged(double value) const {
+  return great_errors && value > greatest_error(unit);
+}
 
 std::string x_text(const LineAxis& axis, double x, const LineQuantity& quantity) {
   const std::string value = with_unit(data_number(x), axis.unit);

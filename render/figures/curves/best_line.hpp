@@ -14,6 +14,10 @@ struct LineQuantity {
   bool lower_is_better = true;
   std::vector<std::string> plural = {};  ///< Labels of lines that stand for several.
   std::string family = {};  ///< "these 5", of a study with more methods; empty: all are shown.
+  bool great_errors = true;  ///< As in ErrorLinesSpec: what diverged ties with no other value.
+
+  /// Whether a value is that of a map that diverged.
+  bool has_diverged(double value) const;
 };
 
 /// What x is.

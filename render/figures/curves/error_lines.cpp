@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <string_view>
 
@@ -13,6 +14,7 @@
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/base/span.hpp"
+#include "render/figures/curves/best_line.hpp"
 #include "render/plot/layers.hpp"
 
 namespace mapproof {
@@ -59,20 +61,43 @@ void append(std::vector<double>& all, const std::vector<double>& some) {
   all.insert(all.end(), some.begin(), some.end());
 }
 
-ErrorAxis axis_of(const ErrorLinesSpec& spec) {
+/// Above which a mean is that of a map that diverged; infinite if none can be.
+double divergence_of(const ErrorLinesSpec& spec) {
+  return spec.great_errors ? greatest_error(line_axis(spec.y_label).unit) : kInfinity;
+}
+
+/// The ceiling of the spec, and not above what diverged unless all means did.
+double ceiling_of(const ErrorLinesSpec& spec) {
+  const double divergence = divergence_of(spec);
+  for (const ErrorPanel& panel : spec.panels)
+    for (const ErrorLine& line : panel.lines)
+      if (std::ranges::any_of(line.mean, [&](double mean) { return mean <= divergence; }))
+        return std::min(spec.ceiling, divergence);
+  return spec.ceiling;
+}
+
+/// NaN where the mean lies above the ceiling: the band towards it would fill the frame.
+std::vector<double> within_ceiling(const ErrorLine& line, std::vector<double> ends,
+                                   double ceiling) {
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    if (line.mean[i] > ceiling) ends[i] = kNaN;
+  return ends;
+}
+
+ErrorAxis axis_of(const ErrorLinesSpec& spec, double ceiling) {
   std::vector<double> means, intervals, points;
   for (const ErrorPanel& panel : spec.panels) {
     for (const ErrorLine& line : panel.lines) {
       append(means, line.mean);
-      append(intervals, line.low);
-      append(intervals, line.high);
+      append(intervals, within_ceiling(line, line.low, ceiling));
+      append(intervals, within_ceiling(line, line.high, ceiling));
     }
     for (const ErrorPoint& point : panel.points) points.push_back(point.y);
   }
-  const auto beyond = [&](double value) { return value > spec.ceiling; };
+  const auto beyond = [&](double value) { return value > ceiling; };
   std::erase_if(means, beyond);
   std::erase_if(points, beyond);
-  std::ranges::replace_if(intervals, beyond, spec.ceiling);
+  std::ranges::replace_if(intervals, beyond, ceiling);
   return error_axis(means, intervals, spec.log_from, points);
 }
 
@@ -128,7 +153,25 @@ void note_beyond(const ErrorLinesSpec& spec, const ErrorAxis& axis, Figure& figu
   note_count(below, "interval", "end", "below", figure);
 }
 
-std::string words_of(const ErrorLine& line) {
+/// Names the lines that diverged.
+void note_diverged(const ErrorLinesSpec& spec, Figure& figure) {
+  std::vector<DivergedCount> counts;
+  const double divergence = divergence_of(spec);
+  for (const ErrorPanel& panel : spec.panels)
+    for (const ErrorLine& line : panel.lines) {
+      auto count = std::ranges::find(counts, line.label, &DivergedCount::label);
+      if (count == counts.end()) count = counts.insert(count, {.label = line.label});
+      for (const double mean : line.mean) count->see(mean, divergence);
+    }
+  if (std::string text = diverged_text(counts, "at", "points"); !text.empty())
+    figure.notes.push_back({std::move(text), ThemeColour::kMuted});
+}
+
+/// @param divergence  Above which the number says nothing.
+std::string words_of(const ErrorLine& line, double divergence) {
+  const auto words = [divergence](double mean) {
+    return mean > divergence ? kGreatErrorText : significant(mean);
+  };
   const std::string& name = line.setting.empty() ? line.label : line.setting;
   std::size_t best = line.mean.size(), last = line.mean.size();
   for (std::size_t i = 0; i < line.mean.size(); ++i) {
@@ -137,10 +180,10 @@ std::string words_of(const ErrorLine& line) {
     last = i;
   }
   if (last == line.mean.size()) return fmt::format(" {}: nothing known.", name);
-  std::string text = fmt::format(" {}: least {} at {}", name, significant(line.mean[best]),
-                                 data_number(line.x[best]));
+  std::string text =
+      fmt::format(" {}: least {} at {}", name, words(line.mean[best]), data_number(line.x[best]));
   if (last != best)
-    text += fmt::format(", {} at {}", significant(line.mean[last]), data_number(line.x[last]));
+    text += fmt::format(", {} at {}", words(line.mean[last]), data_number(line.x[last]));
   return text + ".";
 }
 
@@ -150,7 +193,7 @@ std::string alt_of(const ErrorLinesSpec& spec, const ErrorAxis& axis) {
   for (const ErrorPanel& panel : spec.panels) {
     text += fmt::format(" Over {}{}:", panel.x.label,
                         panel.title.empty() ? "" : " (" + panel.title + ")");
-    for (const ErrorLine& line : panel.lines) text += words_of(line);
+    for (const ErrorLine& line : panel.lines) text += words_of(line, divergence_of(spec));
     if (panel.lines.empty()) text += " nothing.";
   }
   return text;
@@ -169,8 +212,8 @@ MarkData curve_data(const std::string& label, const std::string& setting, MarkDa
 
 class Builder {
  public:
-  Builder(const ErrorLinesSpec& spec, const ErrorAxis& axis)
-      : spec_(spec), axis_(axis), labels_(labels_of(spec)) {}
+  Builder(const ErrorLinesSpec& spec, const ErrorAxis& axis, double ceiling)
+      : spec_(spec), axis_(axis), ceiling_(ceiling), labels_(labels_of(spec)) {}
 
   Panel panel(std::size_t index) const {
     const ErrorPanel& from = spec_.panels[index];
@@ -182,8 +225,8 @@ class Builder {
     for (const ErrorLine& line : from.lines)
       if (!line.low.empty())
         panel.layers.push_back(
-            Band{line.label, line.x, axis_.raised(within_ceiling(line, line.low)),
-                 axis_.raised(within_ceiling(line, line.high)), style(line.label).colour,
+            Band{line.label, line.x, axis_.raised(within_ceiling(line, line.low, ceiling_)),
+                 axis_.raised(within_ceiling(line, line.high, ceiling_)), style(line.label).colour,
                  Mark{prefix + line.key + "-band", curve_data(line.label, line.setting)}});
     // Below the lines, which then show through.
     for (const ErrorPoint& point : from.points) {
@@ -213,26 +256,18 @@ class Builder {
   }
 
  private:
-  /// With `over`, above which the page says "over 1 km", where the line has such errors.
+  /// `over`, above which the page says "over 1 km", where some of these values are.
+  MarkData over(const std::vector<double>& values) const {
+    const double divergence = divergence_of(spec_);
+    if (std::ranges::none_of(values, [&](double value) { return value > divergence; })) return {};
+    return {{"over", data_number(divergence)}};
+  }
+
   Mark mark_of(const ErrorLine& line, const std::string& prefix) const {
-    Mark mark{prefix + line.key + "-mean", curve_data(line.label, line.setting)};
-    const auto is_great = [](double mean) { return mean > kGreatestError_m; };
-    if (spec_.great_errors && spec_.y_label.ends_with("[m]") &&
-        std::ranges::any_of(line.mean, is_great))
-      mark.data.emplace_back("over", data_number(kGreatestError_m));
-    return mark;
+    return {prefix + line.key + "-mean", curve_data(line.label, line.setting, over(line.mean))};
   }
 
-  /// NaN where the mean lies above the ceiling: the band towards it would fill the frame.
-  std::vector<double> within_ceiling(const ErrorLine& line, std::vector<double> ends) const {
-    for (std::size_t i = 0; i < ends.size(); ++i)
-      if (line.mean[i] > spec_.ceiling) ends[i] = kNaN;
-    return ends;
-  }
-
-  bool is_above(double mean) const {
-    return std::isfinite(spec_.ceiling) && mean > axis_.limits.high;
-  }
+  bool is_above(double mean) const { return std::isfinite(ceiling_) && mean > axis_.limits.high; }
 
   /// NaN above the frame: a line towards such a value would be read at its edge.
   std::vector<double> within_frame(std::vector<double> means) const {
@@ -251,9 +286,9 @@ class Builder {
       if (!is_above(line.mean[i])) continue;
       above.x.push_back(line.x[i]);
       above.y.push_back(axis_.near_top());
-      above.marks.push_back(
-          {"", curve_data(line.label, line.setting,
-                          {{"x", data_number(line.x[i])}, {"y", data_number(line.mean[i])}})});
+      MarkData data = {{"x", data_number(line.x[i])}, {"y", data_number(line.mean[i])}};
+      std::ranges::copy(over({line.mean[i]}), std::back_inserter(data));
+      above.marks.push_back({"", curve_data(line.label, line.setting, std::move(data))});
     }
     return above;
   }
@@ -265,6 +300,7 @@ class Builder {
 
   const ErrorLinesSpec& spec_;
   const ErrorAxis& axis_;
+  double ceiling_;
   Labels labels_;
 };
 
@@ -280,6 +316,26 @@ SeriesStyle series_style(std::size_t i) {
 
 std::size_t series_of_setting(std::size_t series, std::size_t k) {
   return series + kSeriesCount * kDashes.size() * k;
+}
+
+void DivergedCount::see(double value, double divergence) {
+  if (!std::isfinite(value)) return;
+  ++known;
+  diverged += value > divergence ? 1 : 0;
+}
+
+std::string diverged_text(const std::vector<DivergedCount>& counts, std::string_view preposition,
+                          std::string_view of) {
+  constexpr std::size_t kMostNamed = 4;
+  std::vector<std::string> words;
+  for (const auto& [label, diverged, known] : counts)
+    if (diverged > 0)
+      words.push_back(diverged == known ? label
+                                        : fmt::format("{} {} {} of {} {}", label, preposition,
+                                                      diverged, known, of));
+  return words.empty()
+             ? ""
+             : fmt::format("Diverged, {}: {}.", kGreatErrorText, listed(words, kMostNamed));
 }
 
 std::vector<std::size_t> free_series(const std::vector<std::size_t>& taken, std::size_t count,
@@ -356,7 +412,8 @@ double ErrorAxis::near_top() const {
 
 Figure error_lines_figure(const ErrorLinesSpec& spec) {
   require_consistent(spec);
-  const ErrorAxis axis = axis_of(spec);
+  const double ceiling = ceiling_of(spec);
+  const ErrorAxis axis = axis_of(spec, ceiling);
   Figure figure;
   figure.id = spec.id;
   figure.title = spec.title;
@@ -364,7 +421,8 @@ Figure error_lines_figure(const ErrorLinesSpec& spec) {
   figure.alt = spec.alt.empty() ? alt_of(spec, axis) : spec.alt;
   figure.notes = spec.notes;
   note_beyond(spec, axis, figure);
-  const Builder builder(spec, axis);
+  note_diverged(spec, figure);
+  const Builder builder(spec, axis, ceiling);
   for (std::size_t i = 0; i < spec.panels.size(); ++i) figure.panels.push_back(builder.panel(i));
   if (labels_of(spec).labels.empty())
     figure.notes.push_back({"There are no curves.", ThemeColour::kWarning});

@@ -26,7 +26,7 @@ std::string record_of(const ResultsBlock& block) { return block.conditions.front
 
 std::string value_words(double value, const std::string& unit, bool great_errors) {
   if (const auto power = power_of(unit)) return significant(value * std::pow(10.0, *power));
-  const bool diverged = unit == "m" && great_errors && std::abs(value) > kGreatestError_m;
+  const bool diverged = great_errors && std::abs(value) > greatest_error(unit);
   return diverged ? error_text(value) : quantity_text(value, unit);
 }
 

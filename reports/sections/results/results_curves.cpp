@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/text/error_text.hpp"
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
@@ -178,8 +179,10 @@ Curves curves_of(const ResultsView& view, const ResultsBlock& block, const Quant
 }
 
 /// In a unit in which the values of the curves need no power of ten; an MPE is in m everywhere.
+/// @param great_errors  See ResultsView::has_great_errors(): what diverged asks for no unit.
 /// @return The quantity with that unit.
-Quantity scale_to_unit(const Quantity& quantity, Curves& curves, std::vector<ErrorPoint>& points) {
+Quantity scale_to_unit(const Quantity& quantity, bool great_errors, Curves& curves,
+                       std::vector<ErrorPoint>& points) {
   if (quantity.label == "MPE") return quantity;
   double greatest = 0.0;
   const auto for_each_value = [&](std::vector<ErrorLine>& lines, auto&& visit) {
@@ -188,9 +191,11 @@ Quantity scale_to_unit(const Quantity& quantity, Curves& curves, std::vector<Err
         for (double& value : *values) visit(value);
     for (ErrorPoint& point : points) visit(point.y);
   };
+  const double most = great_errors ? greatest_error(quantity.unit) : kInfinity;
   std::vector<ErrorLine> shown_lines = drawn(curves);
-  for_each_value(shown_lines,
-                 [&](double& value) { greatest = std::max(greatest, std::abs(value)); });
+  for_each_value(shown_lines, [&](double& value) {
+    if (std::abs(value) <= most) greatest = std::max(greatest, std::abs(value));
+  });
   const ScaledUnit unit = scaled_unit(quantity.unit, greatest);
   for_each_value(curves.lines, [&](double& value) { value *= unit.factor; });
   Quantity shown = quantity;
@@ -205,12 +210,16 @@ bool has_too_few_runs(const ResultsView& view) {
 
 /// Which method is best over the axis; empty of too few runs, and of a quantity that has no better
 /// side.
+/// @param great_errors  See ResultsView::has_great_errors().
 std::string finding_of(const ResultsView& view, const Curves& curves, const Quantity& quantity,
-                       const std::string& x_label) {
+                       bool great_errors, const std::string& x_label) {
   if (has_too_few_runs(view) || !has_better_side(quantity) || curves.lines.size() < 2) return "";
   return best_over(curves.lines,
-                   {in_sentence(quantity.label), quantity.unit, quantity.better == Better::kLower,
-                    curves.joined},
+                   {.label = in_sentence(quantity.label),
+                    .unit = quantity.unit,
+                    .lower_is_better = quantity.better == Better::kLower,
+                    .plural = curves.joined,
+                    .great_errors = great_errors},
                    line_axis(x_label));
 }
 
@@ -299,6 +308,10 @@ std::string course_of(const std::vector<ErrorLine>& lines, const Quantity& quant
     };
     return in_sentence(quantity.label) + " " + course_of_one(values, place);
   }
+  // What diverged widens no span, unless all did.
+  const double most = great_errors ? greatest_error(unit) : kInfinity;
+  if (std::ranges::min(known) <= most)
+    std::erase_if(known, [most](double value) { return value > most; });
   const auto [least, greatest] = std::ranges::minmax(known);
   const std::string span = words(least) == words(greatest)
                                ? words(least)
@@ -378,8 +391,11 @@ std::string most_often_best(const ResultsView& view,
                             const std::vector<std::vector<ErrorLine>>& panels,
                             const Quantity& quantity, const std::vector<std::string>& joined) {
   if (has_too_few_runs(view) || !has_better_side(quantity)) return "";
-  return best_of_points(panels, {in_sentence(quantity.label), quantity.unit,
-                                 quantity.better == Better::kLower, joined});
+  return best_of_points(panels, {.label = in_sentence(quantity.label),
+                                 .unit = quantity.unit,
+                                 .lower_is_better = quantity.better == Better::kLower,
+                                 .plural = joined,
+                                 .great_errors = view.has_great_errors(quantity)});
 }
 
 /// What the lines of several panels do where none is the best: see course_of().
@@ -413,14 +429,15 @@ std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& 
   Curves curves = curves_of(view, block, quantity);
   if (!distinguishes(curves.lines)) return std::nullopt;
   spec.points = runs_of(view, block, quantity, curves);
-  const Quantity shown = scale_to_unit(quantity, curves, spec.points);
+  const Quantity shown = scale_to_unit(quantity, spec.great_errors, curves, spec.points);
   spec.y_label = label_with_unit(shown);
   if (!spec.points.empty()) spec.remark = kSingleRunsRemark;
-  std::string finding =
-      is_tiny_distance(quantity) ? "" : finding_of(view, curves, shown, spec.x_label);
+  std::string finding = is_tiny_distance(quantity)
+                            ? ""
+                            : finding_of(view, curves, shown, spec.great_errors, spec.x_label);
   if (finding.empty())
-    finding = course_of(curves.lines, quantity, shown.unit, view.has_great_errors(quantity),
-                        spec.x_label, view.has_groups_for_intervals() ? kNoneIsBest : kTooFewRuns);
+    finding = course_of(curves.lines, quantity, shown.unit, spec.great_errors, spec.x_label,
+                        view.has_groups_for_intervals() ? kNoneIsBest : kTooFewRuns);
   spec.title = fmt::format("{}: {}", block.title, finding.empty() ? quantity.label : finding);
   if (quantity.unit == "%") spec.log_from = HUGE_VAL;
   spec.methods = drawn(std::move(curves));

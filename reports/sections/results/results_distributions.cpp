@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/median.hpp"
+#include "core/base/text/error_text.hpp"
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "render/figures/curves/best_line.hpp"
@@ -53,12 +55,14 @@ ErrorLine distribution_of(const ValuesByRun& runs) {
 
 /// What distributions show: of one method the median and the greatest value, of several in one
 /// panel which has the best median; else the quantity alone.
-/// @param medians  Over the runs, of each line of the first panel.
+/// @param medians       Over the runs, of each line of the first panel.
+/// @param great_errors  See ResultsView::has_great_errors().
 std::string distribution_words(const std::vector<ErrorPanel>& panels,
-                               const std::vector<double>& medians, const Quantity& quantity) {
+                               const std::vector<double>& medians, const Quantity& quantity,
+                               bool great_errors) {
   if (panels.size() != 1 || panels.front().lines.empty()) return quantity.label;
   const std::vector<ErrorLine>& lines = panels.front().lines;
-  const auto words = [&](double value) { return quantity_text(value, quantity.unit); };
+  const auto words = [&](double value) { return value_words(value, quantity.unit, great_errors); };
   const std::string name = in_sentence(quantity.label);
   if (lines.size() == 1)
     return fmt::format("the median {} is {}, the greatest {}", name, words(medians.front()),
@@ -67,10 +71,27 @@ std::string distribution_words(const std::vector<ErrorPanel>& panels,
   for (std::size_t i = 0; i < lines.size(); ++i)
     of_lines.push_back(
         {.label = lines[i].label, .key = lines[i].key, .x = {0.0}, .mean = {medians[i]}});
-  const LineQuantity of_medians{"median " + name, quantity.unit,
-                                quantity.better != Better::kHigher};
+  const LineQuantity of_medians{.label = "median " + name,
+                                .unit = quantity.unit,
+                                .lower_is_better = quantity.better != Better::kHigher,
+                                .great_errors = great_errors};
   const std::string best = best_of_points({of_lines}, of_medians);
   return !has_better_side(quantity) || best.empty() ? quantity.label : best;
+}
+
+/// Ends the axes where no run diverged, if some did and others not, and notes whose did.
+/// @param values  Of all runs.
+/// @return Those that the axes have.
+std::vector<double> leave_out_diverged(const std::vector<double>& values,
+                                       const std::vector<DivergedCount>& counts,
+                                       std::string_view unit, ErrorLinesSpec& spec) {
+  std::vector<double> usual = values;
+  std::erase_if(usual, [&](double value) { return value > greatest_error(unit); });
+  if (usual.empty() || usual.size() == values.size()) return values;
+  if (const auto [least, greatest] = std::ranges::minmax(usual); least < greatest)
+    for (ErrorPanel& panel : spec.panels) panel.x.limits = Range{least, greatest};
+  spec.notes.push_back({diverged_text(counts, "in", "runs"), ThemeColour::kMuted});
+  return usual;
 }
 
 /// Whether any method has values of several runs at one level.
@@ -151,6 +172,8 @@ std::optional<Figure> distribution_figure(const ResultsView& view, const Results
   spec.log_from = HUGE_VAL;
   const std::vector<ResultsLine> lines = view.lines(block, quantity);
   std::vector<double> values, medians;
+  std::vector<DivergedCount> counts;
+  for (const ResultsLine& line : lines) counts.push_back({.label = line.label});
   for (std::size_t i = 0; i < block.conditions.size(); ++i) {
     ErrorPanel& panel = spec.panels.emplace_back();
     if (!block.factor.empty()) panel.title = view.level_words(block.levels[i]);
@@ -160,6 +183,7 @@ std::optional<Figure> distribution_figure(const ResultsView& view, const Results
       ErrorLine curve = distribution_of(runs);
       if (curve.x.empty()) continue;
       if (i == 0) medians.push_back(median_of(runs));
+      for (const auto& [run, value] : runs) counts[k].see(value, greatest_error(quantity.unit));
       values.insert(values.end(), curve.x.begin(), curve.x.end());
       curve.label = lines[k].label;
       curve.key = key_of(k);
@@ -167,10 +191,12 @@ std::optional<Figure> distribution_figure(const ResultsView& view, const Results
       panel.lines.push_back(std::move(curve));
     }
   }
+  const bool great_errors = view.has_great_errors(quantity);
+  if (great_errors) values = leave_out_diverged(values, counts, quantity.unit, spec);
   if (spans_widely(values))
     for (ErrorPanel& panel : spec.panels) panel.x.scale = Scale::kLog;
-  spec.title =
-      fmt::format("{}: {}", block.title, distribution_words(spec.panels, medians, quantity));
+  spec.title = fmt::format("{}: {}", block.title,
+                           distribution_words(spec.panels, medians, quantity, great_errors));
   return error_lines_figure(spec);
 }
 
