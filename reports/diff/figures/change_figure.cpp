@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -209,9 +210,7 @@ std::optional<Panel> panel_of_points(const std::vector<PointsDiff>& all) {
 /// The values of one quantity, run by run; empty: there is no pair of numbers.
 std::optional<Panel> panel_of(const Comparison& comparison) {
   Scatter runs{.colour = ThemeColour::kSeries1};
-  for (const PairedValue& pair : comparison.largest)
-    if (std::isfinite(pair.baseline) && std::isfinite(pair.current))
-      runs.x.push_back(pair.baseline), runs.y.push_back(pair.current);
+  for (const Point& pair : comparison.values) runs.x.push_back(pair.x), runs.y.push_back(pair.y);
   if (runs.x.empty()) return std::nullopt;
   const auto [low_x, high_x] = std::ranges::minmax(runs.x);
   const auto [low_y, high_y] = std::ranges::minmax(runs.y);
@@ -225,7 +224,10 @@ std::optional<Panel> panel_of(const Comparison& comparison) {
   const std::string name = quantity.unit.empty()
                                ? quantity.label
                                : fmt::format("{} [{}]", quantity.label, quantity.unit);
-  runs.label = counted(std::ssize(runs.x), "run");
+  const std::string all = counted(comparison.pairs, "run");
+  runs.label = std::cmp_equal(runs.x.size(), comparison.pairs)
+                   ? all
+                   : fmt::format("{} of {}", runs.x.size(), all);
   return Panel{.title = printable(comparison.label, 200),
                .x = Axis{.label = "baseline: " + name},
                .y = Axis{.label = "current: " + name},

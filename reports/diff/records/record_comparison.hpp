@@ -65,6 +65,8 @@ struct Comparison {
   double current_mean = 0.0;
   std::vector<PairedValue>
       largest;                     ///< Beyond tolerance, the largest difference first; at most 20.
+  std::vector<Point> values = {};  ///< Of the pairs of finite values, baseline and current, in the
+                                   ///< order of the runs; at most the first 1000.
   std::optional<PairedTest> test;  ///< With three or more units of equal seeds.
   Outcome outcome = Outcome::kEqual;
 };

@@ -16,6 +16,7 @@ namespace mapproof {
 namespace {
 
 constexpr std::size_t kMostPairs = 20;
+constexpr std::size_t kMostValues = 1000;
 
 std::set<std::string> subjects_of(const RecordSet& set) {
   std::set<std::string> subjects;
@@ -162,6 +163,7 @@ Comparison compare(const RecordPair& sides, const ValuesByRun& before, const Val
     if (!std::isfinite(*first) || !std::isfinite(*second)) return;
     firsts.add(*first);
     seconds.add(*second);
+    if (out.values.size() < kMostValues) out.values.push_back({*first, *second});
   });
   out.baseline_mean = same_seeds && !firsts.empty() ? firsts.value() : mean_of(before);
   out.current_mean = same_seeds && !seconds.empty() ? seconds.value() : mean_of(after);

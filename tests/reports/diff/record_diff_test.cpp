@@ -1,5 +1,6 @@
 #include "reports/diff/records/record_diff.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -148,6 +149,19 @@ TEST(RecordDiff, CountsLayoutsNotPosesWhereThereAreEnough) {
   for (int layout = 1; layout <= 8; ++layout)
     changes.push_back(0.5 * (std::log1p(0.1 * (1.0 + 0.1 * layout)) + std::log1p(0.2)));
   EXPECT_NEAR(diff.comparisons[0].test->p, paired_change(changes).p, 1e-12);
+}
+
+TEST(RecordDiff, HasTheValuesOfAllPairsAlsoOfRunsThatDoNotDiffer) {
+  const RecordSet before = set_of(40);
+  RecordSet after = before;
+  change(values(after), [](const Name&, double& value) { value += value > 2.0 ? 0.5 : 0.0; });
+  const RecordDiff diff = record_diff(before, after);
+  ASSERT_EQ(diff.comparisons.size(), 1U);
+  const Comparison& one = diff.comparisons[0];
+  EXPECT_GT(one.equal, 0);
+  EXPECT_EQ(one.values.size(), 40U);
+  EXPECT_EQ(std::ranges::count_if(one.values, [](Point pair) { return pair.x != pair.y; }),
+            one.beyond);
 }
 
 TEST(RecordDiff, CorrectsForTheNumberOfQuantitiesThatDiffer) {

@@ -138,7 +138,8 @@ TEST(ChangeFigure, OfRecordsShowsTheLandmarksThatMovedAndTheScoresOfTheRuns) {
   comparison.quantity.label = "MPE";
   comparison.quantity.unit = "m";
   comparison.beyond = 2;
-  comparison.largest = {{"run-1", 0.1, 0.2}, {"run-2", 0.2, 0.1}};
+  comparison.pairs = 2;
+  comparison.values = {{0.1, 0.2}, {0.2, 0.1}};
   comparison.outcome = Outcome::kChanged;
   diff.comparisons = {comparison};
   const auto figure = change_figure(diff);
@@ -146,8 +147,21 @@ TEST(ChangeFigure, OfRecordsShowsTheLandmarksThatMovedAndTheScoresOfTheRuns) {
   ASSERT_EQ(figure->panels.size(), 2U);
   EXPECT_EQ(layers_of<Segments>(figure->panels[0]).size(), 1U);
   EXPECT_EQ(figure->panels[1].x.label, "baseline: MPE [m]");
-  EXPECT_EQ(layers_of<Scatter>(figure->panels[1])[0].y, (std::vector{0.2, 0.1}));
+  const Scatter runs = layers_of<Scatter>(figure->panels[1])[0];
+  EXPECT_EQ(runs.y, (std::vector{0.2, 0.1}));
+  EXPECT_EQ(runs.label, "2 runs");
   EXPECT_FALSE(change_figure(RecordDiff{}));
+}
+
+TEST(ChangeFigure, LegendSaysHowManyOfTheRunsAreShown) {
+  RecordDiff diff;
+  Comparison& comparison = diff.comparisons.emplace_back();
+  comparison.beyond = 2;
+  comparison.pairs = 3;
+  comparison.values = {{0.1, 0.2}, {0.2, 0.1}};
+  const auto figure = change_figure(diff);
+  ASSERT_TRUE(figure);
+  EXPECT_EQ(layers_of<Scatter>(figure->panels[0])[0].label, "2 of 3 runs");
 }
 
 /// Errors drawn to the estimates, which a layer of their own draws again.
@@ -265,7 +279,7 @@ TEST(ChangeFigure, OfRecordsBeginsWithWhatGotWorse) {
     comparison.subject = subject;
     comparison.quantity = known_quantity("mpe_m");
     comparison.beyond = 1;
-    comparison.largest = {{"run-1", 0.1, 0.2}};
+    comparison.values = {{0.1, 0.2}};
     comparison.outcome = outcome;
     comparison.label = std::string(subject) == "bearing/isomap" ? "bearing, ISOMAP" : subject;
     diff.comparisons.push_back(comparison);
