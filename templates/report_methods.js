@@ -1,7 +1,7 @@
 // A method that is chosen, from the list or by a click on its curve, is highlighted in all figures
 // and tables; the curves of a figure can be hidden one by one, by its legend or by a list.
 
-const methods = new Map();  // Key, as in the ids of marks → label, as in tables.
+const methods = new Map();  // Key, as in the ids of marks → name, as in tables.
 let chosenMethod = "";
 const kMostRead = 100;  // Figures whose curves name the methods: a page may hold thousands.
 
@@ -25,12 +25,14 @@ function nameOf(label) {
   return longest || own;
 }
 
-// The ids of curves hold the keys of their methods: "fig-4-smacof-knn-mean".
+// The ids of curves hold the keys of their methods: "fig-4-smacof-knn-mean". Those of results count
+// the curves of their figure, "errors-line-2-mean": there a method's name is its key.
 function readMethods(figure) {
   const id = figure.dataset.id.replace(/[^a-z0-9-]/g, "");
   const pattern = new RegExp(` id="${id}-([a-z0-9-]+)-mean" data-curve="([^"]*)"`, "g");
   for (const [, key, label] of sourceOf(figure).matchAll(pattern)) {
-    methods.set(key, methodOf(decoded(label)));
+    const name = methodOf(decoded(label));
+    methods.set(/^line-\d+$/.test(key) ? name : key, name);
   }
 }
 
@@ -40,6 +42,13 @@ function labelOfMark(mark) {
   if (method === undefined) return "";
   const key = /^(?:ours|published)-\d+-(.+)$/.exec(mark.id.slice(mark.ownerSVGElement.id.length + 1));
   return methods.get(key?.[1]) ?? nameOf(method);
+}
+
+// The method that words name; a diagram of ranks has a method's mean rank behind it, "ISOMAP 2.17".
+function labelOfWords(words, ranked) {
+  const mark = ranked.find(({ dataset: { method, rank } }) =>
+    words.startsWith(`${method} `) && Math.abs(words.slice(method.length) - rank) < .01);
+  return mark ? labelOfMark(mark) : nameOf(words);
 }
 
 const kOfMethods = "[data-curve], [data-setting], [data-method]";
@@ -71,9 +80,9 @@ function highlightIn(svg) {
   const marks = [...svg.querySelectorAll(kOfMethods)];
   const isHere = chosenMethod !== "" && marks.some((mark) => labelOfMark(mark) === chosenMethod);
   for (const mark of marks) mark.classList.toggle("dim", isHere && labelOfMark(mark) !== chosenMethod);
-  const labels = new Set(marks.map(labelOfMark));
+  const labels = new Set(marks.map(labelOfMark)), ranked = marks.filter((mark) => mark.dataset.rank);
   for (const words of svg.querySelectorAll(kNamesOfMethods)) {
-    const name = nameOf(words.dataset.words.replace(/ [\d.]+$/, ""));  // A mean rank follows it.
+    const name = labelOfWords(words.dataset.words, ranked);
     words.classList.toggle("dim", isHere && name !== chosenMethod && labels.has(name));
   }
   for (const entry of legendEntries({ rest: [...svg.children] })) {

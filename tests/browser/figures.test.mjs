@@ -1,5 +1,8 @@
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 import { test } from "node:test";
 import { figure, kinds, open, study, textOf } from "./support.mjs";
 
@@ -310,6 +313,61 @@ test("a method that is chosen is highlighted in figures and tables, those insert
   assert.equal(await page.locator("#figure-map-bearing-smacof-knn.chosen").count(), 1);
   await list.selectOption("");
   assert.equal(await page.locator(".dim, .chosen").count(), 0);
+  await close();
+});
+
+// Results of methods whose names end in numbers, in rooms of which the second lacks the first method.
+// A diagram of ranks names the first one "Solver 1.00", too.
+function resultsOfSolvers() {
+  const labels = ["Solver", "Solver 1.00", "Solver 0.1", "Solver 0.01", "EKF"];
+  const folder = mkdtempSync(join(tmpdir(), "mapproof-solvers-"));
+  const runs = [1, 2, 3, 4, 5, 6].flatMap((run) => [[run, 100], [run, 200]]);
+  const rows = ["room", "hall"].flatMap((setup, first) => labels.flatMap((_, i) => runs.map(
+    ([run, steps]) => [setup, `m${i}`, "ate_m", run, `g${run}`, 1 + i + .1 * run, steps].join()))
+    .slice(first * runs.length));
+  writeFileSync(join(folder, "results.csv"),
+    ["setup,method,quantity,run,group,value,at.steps", ...rows].join("\n"));
+  writeFileSync(join(folder, "study.json"), JSON.stringify({
+    schema: { name: "mapproof.results_study", version: 1 }, name: "solvers", title: "Solvers",
+    question: "Which is the best?", factors: [{ id: "steps", label: "steps", unit: "" }],
+    quantities: [{ id: "ate_m", label: "trajectory error", unit: "m", better: "lower" }],
+    methods: labels.map((label, i) => ({ id: `m${i}`, label })) }));
+  execFileSync(process.env.MAPPROOF_PROGRAM, ["report", folder, "--quiet"]);
+  return { folder, labels };
+}
+
+// The methods of what is lit in a figure: of its marks, and of the words that name a method.
+const litIn = (shown, labels) => shown.evaluate((each, names) => {
+  const lit = (query) => [...each.querySelectorAll(query)].filter(
+    (part) => !part.classList.contains("dim")).map((part) => part.dataset);
+  const rank = each.dataset.id.includes("-ranks-") ? / \d\.\d\d$/ : "";
+  return {
+    marks: lit("[data-curve], [data-method]").map(({ curve, method }) => curve ?? method),
+    words: lit("svg [data-words]").map(({ words }) => words.replace(rank, ""))
+      .filter((words) => names.includes(words)),
+  };
+}, labels);
+
+test("of methods whose names end in numbers one alone is highlighted, in marks and words", async () => {
+  const { folder, labels } = resultsOfSolvers();
+  const { page, errors, close } = await open({}, folder);
+  const list = page.locator("select.method");
+  await list.waitFor({ state: "attached" });
+  const names = (await list.locator("option").allTextContents()).slice(1);
+  assert.deepEqual(names.toSorted(), labels.toSorted());
+  const ids = await page.locator("figure[data-id]").evaluateAll(
+    (all) => all.map((each) => each.dataset.id));
+  for (const id of ids) {
+    const shown = await figure(page, id), { marks } = await litIn(shown, labels);
+    for (const name of labels.filter((each) => marks.includes(each))) {
+      await list.selectOption(name);
+      const lit = await litIn(shown, labels);
+      assert.deepEqual([...new Set(lit.marks)], [name], id);
+      assert.deepEqual([...new Set(lit.words)], [name], id);
+      await list.selectOption("");
+    }
+  }
+  assert.deepEqual(errors, []);
   await close();
 });
 
