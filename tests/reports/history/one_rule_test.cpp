@@ -61,7 +61,8 @@ Judged judged(int groups, const Factor& factor) {
   judge_nightly_run(store, first, std::nullopt);
   store.append(first);
   judge_nightly_run(store, second, std::nullopt);
-  return {record_diff(read_records(before, after), read_records(after, before)), second};
+  const RecordSets sets = read_records(before, after);
+  return {record_diff(sets.baseline, sets.current), second};
 }
 
 TEST(OneRule, DiffAndANightlyRunFindTheSameInTheSameTwoRecords) {
