@@ -110,6 +110,7 @@ function chooseMethod(label) {
   if (list) list.value = chosenMethod;
   for (const svg of document.querySelectorAll(".drawing > svg")) highlightIn(svg);
   highlightImages();
+  nameMethodInLinks();
   for (const head of document.querySelectorAll("main tbody th[scope=row]")) {
     const isChosen = chosenMethod !== "" && head.textContent.trim() === chosenMethod;
     head.parentElement.classList.toggle("chosen", isChosen);
@@ -176,17 +177,17 @@ function addMethodList(before) {
     chooseMethod(list.value);
   });
   before.after(list);
-  for (const event of ["click", "auxclick"]) document.addEventListener(event, nameMethodInLinks, true);
   if (chosen !== "") chooseMethod(chosen);
 }
 
-// A method that is chosen is highlighted on the report's further pages, too: links to them name it.
-function nameMethodInLinks({ target }) {
-  const kPage = /^(\.\/[^?#]*\.html)(?:\?[^#]*)?(#.*)?$/;
-  const link = target.closest("a[href]"), page = kPage.exec(link?.getAttribute("href") ?? "");
-  if (!page) return;
+// A method that is chosen is highlighted on the report's further pages, too: links to them name it,
+// however they are followed.
+function nameMethodInLinks() {
   const query = chosenMethod === "" ? "" : `?${new URLSearchParams({ method: chosenMethod })}`;
-  link.setAttribute("href", `${page[1]}${query}${page[2] ?? ""}`);
+  for (const link of document.querySelectorAll("a[href^='./']")) {
+    const page = /^([^?#]*\.html)(?:\?[^#]*)?(#.*)?$/.exec(link.getAttribute("href"));
+    if (page) link.setAttribute("href", `${page[1]}${query}${page[2] ?? ""}`);
+  }
 }
 
 // The curves of a figure, each with its parts, by label.

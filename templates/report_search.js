@@ -27,7 +27,7 @@ function searchables() {
   const kinds = `main > section[id^=section-], .table, figure[data-id], .page-links a, ${kTexts}`;
   for (const each of document.querySelectorAll(kinds)) {
     if (each.matches(".page-links a")) {
-      found.push({ ...searchable(each, "", each.textContent, ""), href: each.getAttribute("href") });
+      found.push(searchable(each, "", each.textContent, ""));
     } else if (each.matches(kTexts)) {
       if (each.closest(kNoTexts) || each.querySelector(kTexts)) continue;
       const text = typed(each.textContent.trim()).replace(/\s+/g, " ");
@@ -91,7 +91,7 @@ function addSearch(parent) {
     const found = words.length === 0 ? [] : all.filter((entry) => matches(entry, words));
     list.replaceChildren(...found.slice(0, kMostFound).map((entry) => {
       const item = document.createElement("li"), link = document.createElement("a");
-      link.href = entry.href ?? `#${entry.link || idOf(entry.element)}`;
+      link.href = entry.element.getAttribute("href") ?? `#${entry.link || idOf(entry.element)}`;
       const place = document.createElement("small");
       place.textContent = titles.get(entry.section) ?? "";
       link.append(...excerpt(entry.text ?? entry.name, words), place);

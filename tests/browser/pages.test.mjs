@@ -32,6 +32,15 @@ test("a method that is chosen is highlighted on the other pages, too", options, 
   const list = page.getByRole("combobox", { name: "Highlight a method in all figures and tables" });
   const name = await list.locator("option").nth(1).textContent();
   await list.selectOption(name);
+  // Also where a link is opened by a menu, copied or found by the search.
+  const field = page.getByRole("searchbox", { name: "Search this page" });
+  await field.fill(await page.locator(".page-links a").last().textContent());
+  const leading = await page.locator("a[href*='pages/']").evaluateAll(
+    (all) => all.map((each) => each.getAttribute("href")));
+  assert.ok(leading.length > await page.locator(".page-links a").count());
+  const query = `?${new URLSearchParams({ method: name })}#`;
+  assert.ok(leading.every((each) => each.includes(query)), leading.find((each) => !each.includes(query)));
+  await field.fill("");
   const link = page.locator(".page-links a").first();
   const follow = async () => {
     await page.evaluate(() => unfold(document.querySelector(".page-links a")));
