@@ -178,16 +178,51 @@ bool is_address(std::string_view word) {
              domain, [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; });
 }
 
-/// An absolute path as one from the working folder: "data/a.csv", "../a.csv". One that has no
-/// folder but the root in common with it stays as it is.
-std::string from_working_folder(const std::string& path) {
-  std::error_code error;
-  const fs::path here = fs::current_path(error), there = fs::path(path).lexically_normal();
-  if (error || !there.is_absolute()) return path;
-  const auto common = std::ranges::mismatch(here, there).in1;
-  if (std::distance(here.begin(), common) < 2) return path;
-  const std::string relative = there.lexically_relative(here).string();
-  return relative.starts_with('-') ? "./" + relative : relative;
+/// What ends a path in a word that holds more than a path, and can stand before one.
+constexpr std::string_view kBesidePaths = " \t\n'\"=:,;@()<>|&";
+
+/// Whether an absolute path begins there, as in "/a", "--out=/a", "-o/a", "make -C /a" and
+/// "file:///a", but not in "http://a".
+bool begins_path(std::string_view word, std::size_t at) {
+  if (at == 0 || word.substr(0, at).ends_with("://")) return true;
+  if (begins_host(word, at + 1)) return false;
+  return kBesidePaths.find(word[at - 1]) != std::string_view::npos ||
+         (at == 2 && word.front() == '-' && word[1] != '-');
+}
+
+/// Where the path that begins there ends: one that is the whole value of an argument, or quoted,
+/// may have blanks.
+std::size_t end_of_path(std::string_view word, std::size_t begin) {
+  if (begin == 0 || (word.starts_with("--") && word.find('=') + 1 == begin)) return word.size();
+  const char before = word[begin - 1];
+  const std::size_t end = before == '\'' || before == '"' ? word.find(before, begin)
+                                                          : word.find_first_of(kBesidePaths, begin);
+  return std::min(end, word.size());
+}
+
+/// An absolute path as one from this folder, if it is in it: "data/a.csv"; the last name of any
+/// other: "…/a.csv".
+std::string shortened_path(const std::string& path, const fs::path& here) {
+  const fs::path there = fs::path(path).lexically_normal();
+  if (std::distance(here.begin(), here.end()) > 1) {
+    const std::string inside = there.lexically_relative(here).string();
+    if (!inside.starts_with("..")) return inside.starts_with('-') ? "./" + inside : inside;
+  }
+  const fs::path name = there.has_filename() ? there.filename() : there.parent_path().filename();
+  return name.empty() ? path : "…/" + name.string();
+}
+
+void shorten_paths(std::string& word, const fs::path& here) {
+  for (std::size_t at = 0; (at = word.find('/', at)) != std::string::npos;) {
+    if (!begins_path(word, at)) {
+      ++at;
+      continue;
+    }
+    const std::size_t size = end_of_path(word, at) - at;
+    const std::string shown = shortened_path(word.substr(at, size), here);
+    word.replace(at, size, shown);
+    at += shown.size();
+  }
 }
 
 }  // namespace
@@ -204,27 +239,32 @@ std::string Disclosure::text(std::string text) const {
   return text;
 }
 
+std::string Disclosure::word(std::string word, const fs::path& here) const {
+  word = text(std::move(word));
+  shorten_paths(word, here);
+  std::string kept;
+  for (std::size_t at = 0; at <= word.size();) {
+    const std::size_t end = std::min(word.find_first_of("/=:,", at), word.size());
+    const std::string part = word.substr(at, end - at);
+    const auto name = std::ranges::find(names_, part, &std::pair<std::string, std::string>::first);
+    kept += name != names_.end() ? name->second : is_address(part) ? "E-MAIL" : part;
+    if (end < word.size()) kept += word[end];
+    at = end + 1;
+  }
+  return kept;
+}
+
 std::vector<std::string> Disclosure::words(std::vector<std::string> words) const {
   if (full_) return words;
-  for (std::string& word : words) {
-    std::string shown = text(word);
-    if (shown == word) {
-      const std::size_t value = word.starts_with("--") ? word.find('=') + 1 : 0;
-      shown = word.substr(0, value) + from_working_folder(word.substr(value));
-    }
-    word = std::move(shown);
-    std::string kept;
-    for (std::size_t at = 0; at <= word.size();) {
-      const std::size_t end = std::min(word.find_first_of("/=:,", at), word.size());
-      const std::string part = word.substr(at, end - at);
-      const auto name =
-          std::ranges::find(names_, part, &std::pair<std::string, std::string>::first);
-      kept += name != names_.end() ? name->second : is_address(part) ? "E-MAIL" : part;
-      if (end < word.size()) kept += word[end];
-      at = end + 1;
-    }
-    word = std::move(kept);
-  }
+  std::error_code error;
+  const fs::path here = fs::current_path(error);
+  for (std::string& one : words) one = word(std::move(one), here);
+  return words;
+}
+
+std::vector<std::string> Disclosure::method_command(std::vector<std::string> words) const {
+  if (full_) return words;
+  for (std::string& one : words) one = word(std::move(one), {});
   return words;
 }
 

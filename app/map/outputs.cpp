@@ -85,9 +85,13 @@ Report report_of(const MapOutput& location, const MapResult& map,
     (figures[k].id == kFitSection ? of_fit : more).push_back(figure_block(figures[k]));
   for (const Scene& scene : scenes) more.insert(more.begin(), figure_block(scene));
   const std::string verdict = with_anchors(verdict_text(map.fit), map.record);
+  std::vector<std::pair<std::string, std::string>> facts = map.facts;
+  facts.insert(
+      facts.begin(),
+      {"Observations", location.disclosure.words({input_name(location.observations)}).front()});
   return map_report({.record = map.record,
                      .title = map_title(location.observations),
-                     .facts = map.facts,
+                     .facts = std::move(facts),
                      .remarks = map.remarks,
                      .warnings = map.warnings,
                      .figure = figure_block(figures.front()),

@@ -332,7 +332,7 @@ MapDraft align_to_reference(MapDraft draft, const MapJob& job) {
 MapDraft explain(MapDraft draft, const MapJob& job) {
   MapResult& map = draft.result;
   const MapRecord& record = map.record;
-  map.facts = {{"Observations", input_name(job.path)}, {"Sensor", sensor_label(record)}};
+  map.facts = {{"Sensor", sensor_label(record)}};
   map.facts.insert(map.facts.end(), map.read.begin(), map.read.end());
   map.facts.emplace_back("Method", method_label(record));
   if (record.anchors.empty()) {

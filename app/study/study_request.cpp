@@ -51,7 +51,11 @@ StudyRequest read_study_request(const ExperimentText& file, const StudyOptions& 
       .data = options.data,
       .folder = file.folder,
       .methods = options.methods,
-      .disclosed = [disclosure](std::string text) { return disclosure.text(std::move(text)); }};
+      .disclosed = [disclosure](std::string text) { return disclosure.text(std::move(text)); },
+      .disclosed_command =
+          [disclosure](std::vector<std::string> words) {
+            return disclosure.method_command(std::move(words));
+          }};
   const std::string methods = options.methods ? "\n" + read_file(*options.methods) : "";
   StudyRequest request{.digest = sha256_hex(options.profile + "\n" + file.text + methods),
                        .plan = kind.plan(file.text, file.source, how)};

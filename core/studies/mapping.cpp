@@ -54,9 +54,9 @@ StudyPlan plan_mapping(std::string_view text, const std::string& source,
   const auto others =
       std::make_shared<MethodProcesses>(experiment.external_methods, options.disclosed);
   // The processes have the commands as they are; the records have them as they may be shown.
-  if (options.disclosed)
+  if (options.disclosed_command)
     for (ExternalMethod& method : experiment.external_methods)
-      for (std::string& word : method.command) word = options.disclosed(word);
+      method.command = options.disclosed_command(method.command);
   const auto start = [=](Provenance made_by) {
     made_by.method_files = method_files;
     return study_start(experiment, made_by);

@@ -31,8 +31,10 @@ struct PlanOptions {
   std::filesystem::path folder = {};
   /// methods.json, whose methods are added; they are started in its folder.
   std::optional<std::filesystem::path> methods = {};
-  /// Of the commands of methods, and of what they say, in records.
+  /// Of what methods say, in records.
   std::function<std::string(std::string text)> disclosed = {};
+  /// Of the commands of methods, in records.
+  std::function<std::vector<std::string>(std::vector<std::string> words)> disclosed_command = {};
 };
 
 /// What one worker does.

@@ -5,7 +5,12 @@
 namespace mapproof {
 
 std::string shell_word(const std::string& word) {
-  if (word.starts_with("~/")) return "~/" + (word.size() > 2 ? shell_word(word.substr(2)) : "");
+  // The home folder, and folders that are not named.
+  for (const std::string_view folder : {"~/", "…/"})
+    if (word.starts_with(folder)) {
+      const std::string inside = word.substr(folder.size());
+      return std::string(folder) + (inside.empty() ? "" : shell_word(inside));
+    }
   constexpr std::string_view kPlain =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_./=,:+@%";
   if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;

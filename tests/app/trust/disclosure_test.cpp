@@ -164,28 +164,63 @@ TEST(Provenance, OfTheCommandThatBuildsNamesNoHome) {
   expect_anonymous(store);
 }
 
-TEST(Disclosure, WritesAbsolutePathsOfACommandFromTheWorkingFolder) {
+TEST(Disclosure, WritesAbsolutePathsOfACommandFromTheWorkingFolderOrTheirLastName) {
   const Environment environment{{{"HOME", "/home/ann"}, {"USER", "ann"}, {"LOGNAME", "ann"}}};
   const fs::path here = fs::current_path(), beside = here.parent_path() / "beside/b.csv";
-  ASSERT_GT(std::distance(here.begin(), here.end()), 2)
-      << "a folder of the root has none beside it";
+  ASSERT_GT(std::distance(here.begin(), here.end()), 1) << "all paths are in the root";
   const Disclosure reduced(false);
-  EXPECT_EQ(
-      reduced.words({"map", here / "in/a.csv", "--out=" + beside.string(), here / "-a.csv",
-                     "--images=baseline@/x", "/no-such-folder/a.csv", "../c.csv", here}),
-      (std::vector<std::string>{"map", "in/a.csv", "--out=../beside/b.csv", "./-a.csv",
-                                "--images=baseline@/x", "/no-such-folder/a.csv", "../c.csv", "."}));
-  EXPECT_EQ(reduced.words({"make -C " + here.string()}).front(), "make -C " + here.string());
+  const std::vector<std::pair<std::string, std::string>> shown = {
+      {"map", "map"},
+      {here / "in/a.csv", "in/a.csv"},
+      {here / "-a.csv", "./-a.csv"},
+      {here, "."},
+      {"--out=" + beside.string(), "--out=…/b.csv"},
+      {"--images=baseline@/x/y z.png", "--images=baseline@…/y z.png"},
+      {"/data of all/plaza/", "…/plaza"},
+      {"-I/opt/x", "-I…/x"},
+      {"a=/x/b,/y/c", "a=…/b,…/c"},
+      {"file:///x/y", "file://…/y"},
+      {"http://x/y", "http://x/y"},
+      {"../c.csv", "../c.csv"},
+      {"/", "/"},
+      {"make -C " + here.string() + " DATA='/x y/d e' && /opt/z/run",
+       "make -C . DATA='…/d e' && …/run"}};
+  for (const auto& [typed, word] : shown) EXPECT_EQ(reduced.words({typed}).front(), word);
+  EXPECT_EQ(reduced.method_command({here / "in/a.csv"}).front(), "…/a.csv");
   EXPECT_EQ(Disclosure(true).words({here / "a"}).front(), (here / "a").string());
+}
+
+TEST(Provenance, NamesNoFolderThatAnArgumentIsIn) {
+  const TemporaryFolder folder;
+  const fs::path data = folder / "folder-4711", out = folder / "out-4711";
+  fs::create_directories(data);
+  fs::create_directories(out);
+  fs::copy(kSource + "/examples/hall", data / "hall", fs::copy_options::recursive);
+  fs::copy(kSource + "/tests/data/experiments/small.json", data / "small.json");
+  const std::string hall = data / "hall", small = data / "small.json";
+  const std::vector<std::string> tiny = {"--profile", "tiny", "--jobs", "1", "--out", out / "run"};
+  std::vector<std::string> run = {"run", small};
+  run.insert(run.end(), tiny.begin(), tiny.end());
+  expect_done({"map", hall + "/bearings.csv", "--sensor", "bearing", "--method", "lpca",
+               "--anchors=" + hall + "/anchors.csv", "--out", out / "map"});
+  expect_done(run);
+  expect_done({"report", out / "run"});
+  expect_done({"nightly", small, "--profile", "tiny", "--jobs", "1", "--store", out / "store",
+               "--build", "make -C " + data.string()});
+  for (const auto& [file, bytes] : contents(out))
+    EXPECT_EQ(bytes.find("-4711/"), std::string::npos) << file;
+  EXPECT_NE(read_file(out / "map/report.html").find("--anchors=…/anchors.csv"), std::string::npos);
+  EXPECT_NE(read_file(out / "run/timings.jsonl").find("run …/small.json"), std::string::npos);
 }
 
 TEST(Disclosure, NamesNoUserHostOrAddressInACommand) {
   const Environment environment{{{"HOME", "/home/ann"}, {"USER", "ann"}, {"LOGNAME", "ann"}}};
   const Disclosure reduced(false);
-  const std::vector<std::string> words = {"map",  "/scratch/ann/a.csv", "--out=/home/ann/b c",
-                                          "anna", "ann@example.org/x",  "map@cairo-1.18.png"};
+  const std::vector<std::string> words = {
+      "map",  "/scratch/ann/a.csv", "x/ann/a.csv",       "--out=/home/ann/b c",
+      "anna", "ann@example.org/x",  "map@cairo-1.18.png"};
   EXPECT_EQ(reduced.words(words),
-            (std::vector<std::string>{"map", "/scratch/USER/a.csv", "--out=~/b c", "anna",
+            (std::vector<std::string>{"map", "…/a.csv", "x/USER/a.csv", "--out=~/b c", "anna",
                                       "E-MAIL/x", "map@cairo-1.18.png"}));
   EXPECT_EQ(Disclosure(true).words(words), words);
   EXPECT_EQ(reduced.host(), Disclosure(false).host());
