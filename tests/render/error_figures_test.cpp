@@ -227,6 +227,29 @@ TEST(BestLine, TiesWithNothingThatDiverged) {
   EXPECT_EQ(best_over({a, c}, distance, {"noise"}), "");
 }
 
+TEST(BestLine, IsJudgedByThePairedTestWhereThereIsOne) {
+  using enum PairedWithBest;
+  ErrorLine a = three_points("A", {1, 2, 3}, 0.3), b = three_points("B", {1.1, 2.1, 3.1}, 0.3);
+  a.paired = {kBest, kBest, kBest};
+  b.paired = {kWorse, kWorse, kWorse};
+  EXPECT_EQ(best_over({a, b}, {}, {"noise"}), "A has the lowest MPE throughout");
+  EXPECT_EQ(best_of_points({{a, b}}, {}), "A has the lowest MPE at all points");
+  b.paired = {kWorse, kAlike, kUntested};
+  EXPECT_EQ(best_over({a, b}, {}, {"noise"}), "A has the lowest MPE wherever they differ");
+  EXPECT_EQ(best_over({a, b, three_points("C", {4, 4, 4}, 0.1)}, {}, {"noise"}),
+            "A has the lowest MPE at noise\u00A0=\u00A01; elsewhere differences are not "
+            "significant");
+  // Means of other runs may have another best: then intervals judge.
+  b.paired = {kBest, kBest, kBest};
+  a.paired = {kWorse, kWorse, kWorse};
+  EXPECT_EQ(best_over({a, b}, {}, {"noise"}), "");
+  ErrorLine far = three_points("B", {4, 4, 4}, 0.1);
+  a.paired = {kBest, kBest, kBest};
+  far.paired = {kWorse, kWorse, kAlike};
+  EXPECT_EQ(best_of_points({{a, far}}, {}),
+            "A has the lowest MPE at all 3 points; differences are not significant at 1");
+}
+
 TEST(BestLine, IsNoneWhereIntervalsOrShownDigitsTie) {
   EXPECT_EQ(best_over({three_points("A", {1, 2, 3}, 0.3), three_points("B", {1.5, 2.5, 3.5}, 0.3)},
                       {}, {"noise"}),

@@ -345,6 +345,37 @@ TEST(ResultsFigures, WhatDivergedSpoilsNeitherTitleNorAxis) {
   }
 }
 
+TEST(ResultsFigures, TitlesJudgeAsThePairedTestsOfTheSentences) {
+  // Runs differ far more than methods do; "graph" is the better one in every other run.
+  const auto study_of = [](const std::vector<std::string>& methods) {
+    Rows rows;
+    for (const std::string run : {"a", "b", "c", "d", "e", "f", "g", "h"})
+      for (const double noise : {0.1, 0.2})
+        for (const std::string& method : methods) {
+          const double run_error = 0.1 * (run[0] - 'a' + 1), noise_error = 0.001 * (run[0] % 3);
+          const double own = method == "ekf"      ? 0.0
+                             : method == "filter" ? 0.02 + noise_error
+                             : run[0] % 2 == 0    ? 0.05
+                                                  : -0.04;
+          rows.add(method, run, noise + run_error + own, {{"noise", noise}});
+        }
+    return rows.study();
+  };
+  for (const auto& [methods, is_apart] :
+       {std::pair(std::vector<std::string>{"ekf", "filter"}, true),
+        std::pair(std::vector<std::string>{"ekf", "graph"}, false)}) {
+    const ResultsStudy study = study_of(methods);
+    const ResultsView view(study);
+    const std::vector<MethodComparison> comparisons = compare_methods(view);
+    const std::string sentence = sentence_of(comparisons.at(0), view);
+    EXPECT_EQ(sentence.find("(a significant difference") != std::string::npos, is_apart)
+        << sentence;
+    const std::string title = results_figures(view, comparisons).groups.at(0).figures.at(0).title;
+    EXPECT_EQ(title.find("ekf has the lowest MPE throughout") != std::string::npos, is_apart)
+        << title;
+  }
+}
+
 TEST(ResultsFigures, LinesOnEachOtherAreOneThatSaysOfHowMany) {
   Rows rows;
   for (const char* run : {"a", "b", "c", "d", "e"})

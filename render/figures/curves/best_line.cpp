@@ -21,6 +21,7 @@ namespace mapproof {
 namespace {
 
 constexpr std::size_t kMostNamed = 3;
+constexpr const char* kNotSignificant = "differences are not significant";
 constexpr std::size_t kMostOthers = 2;  ///< Behind a finding about most of the lines.
 
 /// A line's value at one x.
@@ -33,6 +34,10 @@ struct At {
   bool has_interval() const {
     return !line->low.empty() && std::isfinite(line->low[index] + line->high[index]);
   }
+  PairedWithBest paired() const {
+    return line->paired.empty() ? PairedWithBest::kUntested : line->paired[index];
+  }
+  bool is_tested() const { return paired() != PairedWithBest::kUntested; }
 };
 
 bool overlap(const At& a, const At& b) {
@@ -111,11 +116,18 @@ bool are_shown_alike(const At& a, const At& b, const LineQuantity& quantity) {
   return texts[0] == texts[1];
 }
 
-/// Whether no reader should rank two values: their intervals overlap, or the digits shown are
-/// equal. The interval of what diverged reaches far down and shows nothing.
-bool tie(const At& a, const At& b, const LineQuantity& quantity) {
-  const bool are_usual = !quantity.has_diverged(a.mean()) && !quantity.has_diverged(b.mean());
-  return (are_usual && overlap(a, b)) || are_shown_alike(a, b, quantity);
+/// Whether the paired test or, without one, their intervals do not tell a value from the best. The
+/// interval of what diverged reaches far down and shows nothing.
+bool is_alike(const At& at, const At& best, const LineQuantity& quantity) {
+  if (quantity.has_diverged(at.mean()) || quantity.has_diverged(best.mean())) return false;
+  const bool have_test =
+      at.x() == best.x() && at.is_tested() && best.paired() == PairedWithBest::kBest;
+  return have_test ? at.paired() == PairedWithBest::kAlike : overlap(at, best);
+}
+
+/// Whether no reader should rank a value behind the best.
+bool tie(const At& at, const At& best, const LineQuantity& quantity) {
+  return is_alike(at, best, quantity) || are_shown_alike(at, best, quantity);
 }
 
 /// Those that tie with the best, the best first, and the others, ascending from the best on.
@@ -313,19 +325,19 @@ std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& q
         "{} {}", listed_names(some, lines),
         has_the_best(quantity, some.size() > 1 || is_plural(*some.front().line, quantity)));
   };
-  // Lines whose intervals overlap do not differ: the points are named at which the best is alone.
+  // Lines that tie do not differ: the points are named at which the best is alone.
   const auto where_alone = [&](const std::vector<At>& some) {
     std::vector<double> alone;
     for (const std::vector<At>& one : best)
       if (are_alike(one, some) && has_others(one)) alone.push_back(one.front().x());
     if (alone.empty()) return std::string();
-    // Tests of paired runs may rank what intervals do not.
     const bool are_several = some.size() > 1 || is_plural(*some.front().line, quantity);
     return fmt::format("{} at {}; elsewhere {}", finding(some),
                        places(axis, alone, best.size(), quantity),
-                       std::ranges::any_of(some, &At::has_interval) ? "intervals overlap"
-                       : are_several                                ? "they tie with others"
-                                                                    : "it ties with others");
+                       std::ranges::any_of(some, &At::is_tested)      ? kNotSignificant
+                       : std::ranges::any_of(some, &At::has_interval) ? "intervals overlap"
+                       : are_several                                  ? "they tie with others"
+                                                                      : "it ties with others");
   };
   // Unless one of them is drawn below the best.
   const auto wherever_they_differ = [&](const std::vector<At>& some) {
@@ -416,6 +428,7 @@ std::string best_of_points(const std::vector<std::vector<ErrorLine>>& panels,
   std::vector<ErrorLine> all;
   int points = 0;
   double value = 0.0;
+  bool are_tested = false;
   for (const std::vector<ErrorLine>& lines : panels) {
     for (const ErrorLine& line : lines)
       if (std::ranges::find(all, line.label, &ErrorLine::label) == all.end()) all.push_back(line);
@@ -426,6 +439,7 @@ std::string best_of_points(const std::vector<std::vector<ErrorLine>>& panels,
       if (std::none_of(best.begin() + 1, best.end(),
                        [&](const At& other) { return are_shown_alike(other, first, quantity); }))
         ++leads[first.line->label];
+      are_tested = are_tested || first.is_tested();
       if (best.size() > 1) continue;
       ++wins[first.line->label];
       value = first.mean();
@@ -444,8 +458,11 @@ std::string best_of_points(const std::vector<std::vector<ErrorLine>>& panels,
   const int led = leads.at(most->first), overlapping = led - most->second;
   const std::string where = led == points ? fmt::format("all {} points", points)
                                           : fmt::format("{} of {} points", led, points);
-  return fmt::format("{} at {}{}", best, where,
-                     overlapping > 0 ? fmt::format("; intervals overlap at {}", overlapping) : "");
+  return fmt::format(
+      "{} at {}{}", best, where,
+      overlapping > 0 ? fmt::format("; {} at {}",
+                                    are_tested ? kNotSignificant : "intervals overlap", overlapping)
+                      : "");
 }
 
 }  // namespace mapproof

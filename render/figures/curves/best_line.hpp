@@ -54,8 +54,9 @@ std::string best_at_end(const std::vector<ErrorLine>& lines, const LineQuantity&
                         const std::string& where);
 
 /// Which line is best over the whole axis: "ISOMAP has the lowest MPE throughout", "LPCA has the
-/// lowest MPE at noise = 0, HLLE at 20"; of one line, where it is best. Lines tie where their
-/// intervals overlap or their digits shown are equal: "ISOMAP has the lowest MPE at 10°; elsewhere
+/// lowest MPE at noise = 0, HLLE at 20"; of one line, where it is best. Lines tie where the paired
+/// test or, without one, their intervals do not tell them from the best, or their digits shown are
+/// equal: "ISOMAP has the lowest MPE at 10°; elsewhere
 /// it ties with others", "ISOMAP ties for the lowest MPE throughout". Empty if nothing is known, if
 /// all lines tie, or if more than three lines are best wherever they differ.
 std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& quantity,

@@ -28,6 +28,9 @@ inline constexpr std::size_t kMarkerCount = 7;
 /// 0's.
 std::size_t series_of_setting(std::size_t series, std::size_t k);
 
+/// How the paired test with the best line, over the runs that both have, judges a mean.
+enum class PairedWithBest { kUntested, kBest, kAlike, kWorse };
+
 /// An error over something. All vectors are as long as `x`; NaN: nothing known.
 struct ErrorLine {
   std::string label;           ///< In the legend; lines of one label have one style in all panels.
@@ -41,6 +44,9 @@ struct ErrorLine {
   std::optional<std::size_t> series = std::nullopt;
   /// Which of the lines of one label in a panel it is, in tips and the alt text; may be empty.
   std::string setting = {};
+  /// At each x, for titles: where the best line is kBest, tests judge and not intervals. Empty:
+  /// untested.
+  std::vector<PairedWithBest> paired = {};
 };
 
 /// A point that differs from the lines, such as a published value.

@@ -147,7 +147,8 @@ FriedmanTest ranks_of(const RunsByGroup& groups, std::vector<MethodValues> metho
   return friedman(std::move(values));
 }
 
-/// Compares at one condition; empty where no two methods have a run in common.
+}  // namespace
+
 std::optional<MethodComparison> compare_at(const ResultsView& view, const ResultsBlock& block,
                                            const Quantity& quantity, const Condition& at) {
   std::vector<MethodRuns> by_run = methods_at(view, block, quantity, at);
@@ -190,6 +191,8 @@ std::optional<MethodComparison> compare_at(const ResultsView& view, const Result
     comparison.ranks = ranks_of(groups, std::move(methods), lower);
   return comparison;
 }
+
+namespace {
 
 /// At each level: texts have no last one.
 std::vector<MethodComparison> compare_at_all(const ResultsView& view, const ResultsBlock& block,

@@ -40,6 +40,11 @@ struct MethodComparison {
 /// Whether it has as many groups of runs as an interval needs: of fewer nothing is tested.
 bool has_groups_for_tests(const MethodComparison& comparison);
 
+/// Compares the methods of a block at one of its conditions; empty where no two methods have a run
+/// in common.
+std::optional<MethodComparison> compare_at(const ResultsView& view, const ResultsBlock& block,
+                                           const Quantity& quantity, const Condition& at);
+
 /// Compares methods at the last level of each block at which two of them can be, or where levels
 /// are texts at each, by each quantity that has a direction. Pairs are of the runs that all
 /// compared methods have; a group counts by the mean of its pairs. Where runs are not repeats of

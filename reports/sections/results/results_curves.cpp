@@ -21,6 +21,7 @@
 #include "render/figures/curves/method_series.hpp"
 #include "render/figures/score_text.hpp"
 #include "render/figures/unit_scale.hpp"
+#include "reports/sections/results/results_comparison.hpp"
 #include "reports/sections/results/results_conventions.hpp"
 #include "reports/sections/study_figures.hpp"
 
@@ -206,6 +207,32 @@ Quantity scale_to_unit(const Quantity& quantity, bool great_errors, Curves& curv
 /// Whether repeated runs are too few for intervals: titles then rank no methods.
 bool has_too_few_runs(const ResultsView& view) {
   return view.study().results.are_repeats && !view.has_groups_for_intervals();
+}
+
+/// Has the lines know how the paired tests that sentences state judge them at each level.
+void judge_by_pairs(const ResultsView& view, const ResultsBlock& block, const Quantity& quantity,
+                    std::vector<ErrorLine>& curves) {
+  if (!view.study().results.are_repeats || has_too_few_runs(view) || !has_better_side(quantity) ||
+      curves.size() < 2)
+    return;
+  const std::vector<ResultsLine> lines = view.lines(block, quantity);
+  for (ErrorLine& curve : curves) curve.paired.assign(curve.x.size(), PairedWithBest::kUntested);
+  for (std::size_t i = 0; i < block.levels.size(); ++i) {
+    const auto comparison = compare_at(view, block, quantity, block.conditions[i]);
+    if (!comparison || !has_groups_for_tests(*comparison)) continue;
+    for (const ComparedMethod& method : comparison->methods) {
+      const auto line = std::ranges::find(lines, method.method, &ResultsLine::index);
+      const auto curve = std::ranges::find(
+          curves, key_of(static_cast<std::size_t>(line - lines.begin())), &ErrorLine::key);
+      if (curve == curves.end()) continue;  // Joined with another, or without a value.
+      const auto at = std::ranges::find(curve->x, std::get<double>(block.levels[i].value));
+      if (at == curve->x.end()) continue;
+      curve->paired[static_cast<std::size_t>(at - curve->x.begin())] =
+          &method == &comparison->methods.front() ? PairedWithBest::kBest
+          : is_significant(method)                ? PairedWithBest::kWorse
+                                                  : PairedWithBest::kAlike;
+    }
+  }
 }
 
 /// Which method is best over the axis; empty of too few runs, and of a quantity that has no better
@@ -432,6 +459,7 @@ std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& 
   const Quantity shown = scale_to_unit(quantity, spec.great_errors, curves, spec.points);
   spec.y_label = label_with_unit(shown);
   if (!spec.points.empty()) spec.remark = kSingleRunsRemark;
+  judge_by_pairs(view, block, quantity, curves.lines);
   std::string finding = is_tiny_distance(quantity)
                             ? ""
                             : finding_of(view, curves, shown, spec.great_errors, spec.x_label);
@@ -473,7 +501,7 @@ std::optional<Figure> overview_figure(const ResultsView& view, const ResultsOver
     panel.x.label = view.factor_label(block.factor);
     panel.x.scale = scale_of(block.levels);
     const Curves curves = curves_of(view, block, quantity);
-    judged.push_back(curves.lines);
+    judge_by_pairs(view, block, quantity, judged.emplace_back(curves.lines));
     panel.lines = drawn(curves);
     joined.insert(joined.end(), curves.joined.begin(), curves.joined.end());
     panel.points = runs_of(view, block, quantity, curves);
