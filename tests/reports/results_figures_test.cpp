@@ -395,6 +395,15 @@ TEST(ResultsFigures, LinesOnEachOtherAreOneThatSaysOfHowMany) {
                                               "p, incremental and 2 others"}));
 }
 
+TEST(ResultsWords, KeepTheCaseOfNamesInASentence) {
+  EXPECT_EQ(in_sentence("Regret with anchors"), "regret with anchors");
+  EXPECT_EQ(in_sentence("Error of 3 poses"), "error of 3 poses");
+  for (const std::string name :
+       {"", "T", "MPE", "F1 of loop closures", "F-score", "RoC area", "P95 latency", "T error"})
+    EXPECT_EQ(in_sentence(name), name);
+  EXPECT_EQ(in_sentence("MOE, reflection allowed"), "MOE (reflection allowed)");
+}
+
 TEST(ResultsWords, OfAValueHaveItsUnitUnlessThatIsAPowerOfTen) {
   EXPECT_EQ(value_words(0.25, "m", true), "0.250\u00A0m");
   EXPECT_EQ(value_words(2e3, "m", true), "over 1\u00A0km");

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text/ascii.hpp"
 #include "core/base/text/error_text.hpp"
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/slug.hpp"
@@ -41,7 +42,11 @@ bool is_known(double value) { return std::isfinite(value); }
 std::string in_sentence(std::string label) {
   if (const std::size_t comma = label.find(", "); comma != std::string::npos)
     label = fmt::format("{} ({})", label.substr(0, comma), label.substr(comma + 2));
-  if (label.size() < 2 || lower_case(label.substr(1, 1)) != label.substr(1, 1)) return label;
+  const std::string rest = label.substr(std::min<std::size_t>(1, label.size()));
+  const std::string_view word = std::string_view(rest).substr(0, rest.find(' '));
+  const bool is_name = word.empty() || word.front() == '-' || lower_case(word) != word ||
+                       std::ranges::any_of(word, is_digit);
+  if (is_name) return label;
   return lower_case(label.substr(0, 1)) + label.substr(1);
 }
 

@@ -33,8 +33,9 @@ bool spans_widely(const std::vector<double>& values);
 
 bool is_known(double value);
 
-/// "Regret with anchors" as "regret with anchors", but "MPE" as it is; "MOE, reflection allowed" as
-/// "MOE (reflection allowed)".
+/// "Regret with anchors" as "regret with anchors". Names keep their case, those with a digit, a
+/// second capital or one letter: "MPE", "F1 of closures", "F-score", "RoC area". "MOE, reflection
+/// allowed" is "MOE (reflection allowed)".
 std::string in_sentence(std::string label);
 
 /// The coverage that 95 % ellipses are meant to have [%]: more is as wrong as less. Nothing of
