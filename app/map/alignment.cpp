@@ -125,14 +125,16 @@ void check_anchors(const MapRecord& record, FrameCheck& check) {
   if (!mapped_m.allFinite() || !(spread_m > 0.0)) return;
   Eigen::Index worst = 0;
   const double miss_m = (mapped_m - anchors_m).rowwise().norm().maxCoeff(&worst);
-  const Eigen::Index row = record.anchors[static_cast<std::size_t>(worst)];
   const bool is_one = record.anchors.size() >= kFewestToNameOne;
   FitCause cause{.code = is_one ? FitCode::kAnchorMissed : FitCode::kKnownLandmarksAtOdds,
                  .values = {{"distance_m", miss_m}},
                  .statistic = miss_m / spread_m,
                  .bound = kMostAnchorMiss};
   cause.is_small = cause.statistic < kSureMiss * cause.bound;
-  if (is_one) cause.landmarks = {record.names[static_cast<std::size_t>(row)]};
+  const std::vector<Eigen::Index> named =
+      is_one ? std::vector{record.anchors[static_cast<std::size_t>(worst)]} : record.anchors;
+  for (const Eigen::Index row : named)
+    cause.landmarks.push_back(record.names[static_cast<std::size_t>(row)]);
   check.tests.push_back(std::move(cause));
 }
 

@@ -66,9 +66,13 @@ Figure fit_figure(const Fit& fit, const std::string& id, std::vector<std::string
                          .ratio = test.statistic / test.bound,
                          .is_cause = is_cause(fit, test)});
   Figure figure = fit_tests_figure(spec);
-  if (std::ranges::find(fit.tests, FitCode::kWeakBridge, &FitTest::code) != fit.tests.end())
-    figure.caption +=
-        " Connection: whether only few measurements connect some landmarks with the others.";
+  std::vector<std::string> meanings;
+  for (const FitTest& test : fit.tests) {
+    const std::string meaning = test_meaning(test);
+    if (meaning.empty() || std::ranges::find(meanings, meaning) != meanings.end()) continue;
+    meanings.push_back(meaning);
+    figure.caption += " " + meaning;
+  }
   return figure;
 }
 

@@ -189,7 +189,7 @@ std::string map_test_words(FitCode code, const std::string& names) {
     case FitCode::kStress:
       return "distances in the map";
     case FitCode::kAnchorMissed:
-      return of_landmarks("given position", names);
+      return names.empty() ? "map beside the mean of the anchors" : "misfit of anchor " + names;
     case FitCode::kWeakBridge:
       return of_landmarks("connection", names);
     case FitCode::kMirror:
@@ -351,7 +351,7 @@ std::string test_label(FitCode code, const std::vector<std::string>& landmarks) 
     case FitCode::kKnownLandmarksExchanged:
       return "given positions of " + names + " exchanged";
     case FitCode::kKnownLandmarksAtOdds:
-      return "given positions";
+      return names.empty() ? "misfit to given positions" : "greatest misfit of an anchor";
     case FitCode::kResidualsOverTime:
       return "residuals over time";
     case FitCode::kResidualsOverRange:
@@ -360,6 +360,25 @@ std::string test_label(FitCode code, const std::vector<std::string>& landmarks) 
       return "error of the odometry";
     default:
       return map_test_words(code, names);
+  }
+}
+
+std::string test_meaning(const FitTest& test) {
+  switch (test.code) {
+    case FitCode::kKnownLandmarksAtOdds:
+    case FitCode::kAnchorMissed:
+      if (!test.landmarks.empty())
+        return "Misfit of an anchor: the greatest distance of one from its given position.";
+      if (test.code == FitCode::kKnownLandmarksAtOdds)
+        return "Misfit to given positions: how far the map is from all of them, once fitted to "
+               "them.";
+      return "Mean of the anchors: whether a map with all landmarks there has as small an error, "
+             "or "
+             "half of the landmarks lie far beyond the anchors.";
+    case FitCode::kWeakBridge:
+      return "Connection: whether only few measurements connect some landmarks with the others.";
+    default:
+      return "";
   }
 }
 

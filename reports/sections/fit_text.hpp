@@ -32,4 +32,8 @@ std::string parts_text(const Fit& fit);
 /// What is tested, as the label of a row: "offset of all ranges", "offset of 7".
 std::string test_label(FitCode code, const std::vector<std::string>& landmarks);
 
+/// A sentence that explains the label, if it does not speak for itself; else empty: "Connection:
+/// whether only few measurements connect some landmarks with the others."
+std::string test_meaning(const FitTest& test);
+
 }  // namespace mapproof

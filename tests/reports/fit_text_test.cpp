@@ -1,7 +1,10 @@
 #include "reports/sections/fit_text.hpp"
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <variant>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -55,6 +58,31 @@ TEST(FitSentences, NameEveryCodeInWords) {
     const std::string text = cause_text({.code = code, .landmarks = {"A", "B"}, .bound = 1.0});
     EXPECT_NE(text.substr(0, 2), " (") << name(code);
   }
+}
+
+TEST(FitFigure, GivesTheTestsOfGivenPositionsNamesThatDifferAndExplainsThem) {
+  const Fit fit{
+      .verdict = FitVerdict::kFits,
+      .tests = {
+          {.code = FitCode::kKnownLandmarksAtOdds, .statistic = 0.1, .bound = 0.8},
+          {.code = FitCode::kKnownLandmarksAtOdds,
+           .landmarks = {"a", "b", "c", "d"},
+           .statistic = 0.2,
+           .bound = 0.8},
+          {.code = FitCode::kAnchorMissed, .statistic = 0.3, .bound = 1.0},
+          {.code = FitCode::kAnchorMissed, .landmarks = {"a"}, .statistic = 0.4, .bound = 0.8},
+          {.code = FitCode::kKnownLandmarkOff,
+           .landmarks = {"a"},
+           .statistic = 0.5,
+           .bound = 8.0}}};
+  const Figure figure = fit_figure(fit, "fit", {"map"});
+  const std::vector<std::string>& names = figure.panels.at(0).y.names;
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), fit.tests.size());
+  for (const char* explained :
+       {"Misfit to given positions: ", "Misfit of an anchor: ", "Mean of the anchors: "})
+    EXPECT_NE(figure.caption.find(explained), std::string::npos) << figure.caption;
+  EXPECT_EQ(figure.caption.find("Misfit of an anchor: "),
+            figure.caption.rfind("Misfit of an anchor: "));
 }
 
 TEST(FitSection, BeginsWithTheVerdictAndShowsItsFigure) {

@@ -256,6 +256,7 @@ TEST(Map, DoesNotFitAnchorsThatAreFarOff) {
   const nlohmann::json off = fit_with("post 19,100,100\n");
   EXPECT_EQ(off.at("verdict"), "doubtful");
   EXPECT_EQ(off.at("causes").at(0).at("code"), "known_landmarks_at_odds");
+  EXPECT_EQ(off.at("causes").at(0).at("landmarks").size(), 4u);
 }
 
 TEST(Map, ThatCannotBeUsedInMetresDoesNotFit) {
