@@ -1,5 +1,5 @@
 // On paper a table that is wider than the page has each interval below the value that it belongs to,
-// in one column, as papers print them.
+// in one column, as papers print them; one without intervals has its longest words broken.
 
 const kPaper_px = 688;  // Between the margins of A4, see @page.
 const kPaperWords_px = 8 / .75;  // 8 pt.
@@ -21,12 +21,16 @@ function isShort(cell) {
   return widthOnPaper(cell.textContent.trim(), cell.matches(".marked > *")) <= most;
 }
 
+function widestWord(cell, words = cell.textContent.trim().split(/[ \n]+/)) {
+  const isBold = cell.matches("thead th, .marked > *");
+  return Math.max(...words.map((word) => widthOnPaper(word, isBold)));
+}
+
 // The least width of a cell: numbers and short texts stand in one line, and names get some room.
 function leastCell(cell) {
-  const text = cell.textContent.trim(), isBold = cell.matches("thead th, .marked > *");
   if (cell.matches("tbody th:not(.number, .short)")) return kPaperNames_px;
-  const words = cell.matches("tbody .number, tbody .short") ? [text] : text.split(/[ \n]+/);
-  return Math.max(...words.map((word) => widthOnPaper(word, isBold)));
+  const isLine = cell.matches("tbody .number, tbody .short");
+  return isLine ? widestWord(cell, [cell.textContent.trim()]) : widestWord(cell);
 }
 
 // The same with the gaps around it.
@@ -100,6 +104,16 @@ function foldIntervals(table, heads) {
   return undo;
 }
 
+// Breaks words that are wider than names, as those of files, in any place. Returns what undoes it.
+function breakLongWords(table) {
+  const cells = [...table.tBodies[0].querySelectorAll("td:not(.number)")]
+    .filter((cell) => widestWord(cell) > kPaperNames_px);
+  return cells.map((cell) => {
+    cell.classList.add("broken");
+    return () => cell.classList.remove("broken");
+  });
+}
+
 // The room that the heading of a table needs on a page, so that it is not alone on it: that of a short
 // table, which is not divided, and of the first rows of another one.
 function setRoomAhead(table) {
@@ -116,9 +130,11 @@ function fitTablesToPaper() {
     for (const cell of document.querySelectorAll("tbody > tr > :not(.number)")) {
       cell.classList.toggle("short", isShort(cell));
     }
-    for (const table of document.querySelectorAll("table:has(th.interval)")) {
+    for (const table of document.querySelectorAll(".table table")) {
       const heads = columnHeads(table);
-      if (leastTable(table, heads) > kPaper_px) undo.push(...foldIntervals(table, heads));
+      if (leastTable(table, heads) <= kPaper_px) continue;
+      const folded = foldIntervals(table, heads);
+      undo.push(...folded.length > 0 ? folded : breakLongWords(table));
     }
   });
   addEventListener("afterprint", () => {

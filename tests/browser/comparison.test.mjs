@@ -5,6 +5,24 @@ import { comparison, open } from "./support.mjs";
 const options = { skip: !comparison };
 const openComparison = (more = {}) => open(more, comparison, "diff.html");
 
+// A comparison of figures, one of studies, and one of maps, which has lines of a CSV in a table.
+const kPages = ["diff.html", "whole.html", "maps.html"];
+const kPaper_px = 688;  // Between the margins of A4.
+
+// The page of a comparison with all of its images, as it is printed or in a window of some width.
+async function openWhole(file, media, width) {
+  const opened = await open({ viewport: { width, height: 900 } }, comparison, file);
+  await opened.page.emulateMedia({ media });
+  await opened.page.evaluate(async (isPrinted) => {
+    if (isPrinted) dispatchEvent(new Event("beforeprint"));
+    else for (const item of items) unfold(item.querySelector("details.fold") ?? item);
+    for (const item of items) item.style.contentVisibility = "visible";
+    for (const image of document.images) image.loading = "eager";
+    await Promise.all(Array.from(document.images, (image) => image.decode().catch(() => {})));
+  }, media === "print");
+  return opened;
+}
+
 // Magnification and translation of each visible image of the first item, as the browser shows them.
 const matrices = (page) => page.locator(".stage").first().evaluate((stage) =>
   Array.from(stage.querySelectorAll(".canvas"))
@@ -152,3 +170,17 @@ test("a comparison is printed without its controls, its images below each other"
     }
     await close();
   });
+
+for (const file of kPages) {
+  test(`${file}: no comparison is wider than paper, which would shrink the page`, options, async () => {
+    const { page, close } = await openWhole(file, "print", kPaper_px);
+    const { width, wider } = await page.evaluate((most) => ({
+      width: document.documentElement.scrollWidth,
+      wider: [...document.querySelectorAll("table, img")]
+        .filter((each) => each.getBoundingClientRect().right > most + 1)
+        .map((each) => each.alt ?? each.closest("[id]").id) }), kPaper_px);
+    assert.deepEqual(wider, []);
+    assert.ok(width <= kPaper_px, `${width} px`);
+    await close();
+  });
+}
