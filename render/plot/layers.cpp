@@ -17,6 +17,7 @@ namespace {
 constexpr double kMarkerSpacing = 4.0;    // Of a dense line, in units of their size.
 constexpr double kIntervalWidth = 0.9;    // Of an interval's bar, in lines of the theme.
 constexpr double kIntervalSpacing = 1.9;  // Between bars at one point, in lines of the theme.
+constexpr double kWideBars = 10.0;        // More bars at a point have the room of so many.
 /// How far from its frame a line is drawn, in points: it cannot be seen there, and dashes that are
 /// drawn all the way take any time and memory.
 constexpr double kFarthest = 10'000.0;
@@ -168,14 +169,15 @@ class Painter {
       drawing_.marks[*mark].data.emplace_back("points", std::move(values));
   }
 
-  /// A bar per point, those of one point side by side; points that have no room for that are left
-  /// out, the same ones for all bands.
+  /// A bar per point, those of one point side by side, and thin ones of many bands; points that
+  /// have no room for that are left out, the same ones for all bands.
   void draw_bars(const Band& band) {
-    const double spacing = kIntervalSpacing * theme_.line_pt;
     const auto count = static_cast<double>(bar_bands_);
+    const double thin = std::min(1.0, kWideBars / count);
+    const double spacing = thin * kIntervalSpacing * theme_.line_pt;
     const double offset = (static_cast<double>(next_bar_band_++) - (count - 1.0) / 2.0) * spacing;
     Shape shape;
-    shape.stroke = stroke_of(band.colour, Dash::kSolid, kIntervalWidth, theme_);
+    shape.stroke = stroke_of(band.colour, Dash::kSolid, thin * kIntervalWidth, theme_);
     double last = -kInfinity;
     for (std::size_t i = 0; i < band.x.size(); ++i) {
       const Point low = map_(band.x[i], band.low[i]), high = map_(band.x[i], band.high[i]);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "render/plot/axis_map.hpp"
 #include "render/plot/drawing.hpp"
 #include "render/theme/theme.hpp"
@@ -11,6 +13,9 @@ void draw_layers(const Panel& panel, std::size_t panel_index, const PanelMap& ma
                  const Theme& theme, Drawing& drawing);
 
 bool has_image(const Panel& panel);
+
+/// More bars side by side are too thin to be told apart.
+inline constexpr std::size_t kMostBars = 20;
 
 /// Whether at some x more than three bands of the panel have a value in common: none of them could
 /// be distinguished, and each is drawn as a bar per point, side by side.

@@ -456,6 +456,24 @@ TEST(Bands, AreBarsSideBySideWhereMoreThanThreeLieOnEachOther) {
   for (std::size_t i = 1; i < at.size(); ++i) EXPECT_GT(at[i], at[i - 1] + 1.5);
 }
 
+TEST(Bands, AreThinnerBarsInTheRoomOfTenWhereTheyAreMore) {
+  const auto bars_of = [](int bands) {
+    Figure figure = with_panels(1);
+    for (int i = 0; i < bands; ++i)
+      figure.panels[0].layers.push_back(
+          Band{.x = {0.0, 1.0}, .low = {0.0, 0.0}, .high = {1.0, 1.0}});
+    return bands_in(lay_out(figure, report_theme()));
+  };
+  const auto room = [](const std::vector<Shape>& bars) {
+    return bars.back().path.points[0].x - bars.front().path.points[0].x;
+  };
+  const std::vector<Shape> ten = bars_of(10), twenty = bars_of(20);
+  ASSERT_EQ(twenty.size(), 20U);
+  for (const Shape& bar : twenty) EXPECT_EQ(bar.path.points.size(), 4U);  // At both points.
+  EXPECT_LT(room(twenty), 1.1 * room(ten));
+  EXPECT_NEAR(twenty[0].stroke->width, 0.5 * ten[0].stroke->width, 1e-9);
+}
+
 TEST(LayOut, LeavesTheFrameTwoThirdsOfAPageWithoutTitle) {
   const Figure figure = with_lines({1, 2, 3, 4, 5, 6, 7, 8}, "a name too long to stand beside, ");
   for (const double width_in : {3.25, 6.75}) {

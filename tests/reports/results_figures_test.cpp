@@ -376,6 +376,29 @@ TEST(ResultsFigures, TitlesJudgeAsThePairedTestsOfTheSentences) {
   }
 }
 
+TEST(ResultsFigures, ManyLinesHaveIntervalsOrANoteWhereTheseAre) {
+  for (const auto& [methods, has_bands] : {std::pair(12, true), std::pair(21, false)}) {
+    Rows rows;
+    for (const std::string run : {"a", "b", "c", "d", "e"})
+      for (int method = 0; method < methods; ++method)
+        for (const double noise : {0.1, 0.2})
+          rows.add("m" + std::to_string(method), run, noise + 0.01 * method + 0.1 * (run[0] % 3),
+                   {{"noise", noise}});
+    const ResultsStudy study = rows.study();
+    const Figure figure = results_figures(ResultsView(study), {}).groups.at(0).figures.at(0);
+    const auto bands = std::ranges::count_if(figure.panels.at(0).layers, [](const Layer& layer) {
+      return std::holds_alternative<Band>(layer);
+    });
+    EXPECT_EQ(bands, has_bands ? methods : 0);
+    EXPECT_EQ(figure.caption.find("bars: its 95 % interval") != std::string::npos, has_bands)
+        << figure.caption;
+    EXPECT_EQ(std::ranges::any_of(
+                  figure.notes,
+                  [](const Note& note) { return note.text.starts_with("The table has the 95"); }),
+              !has_bands);
+  }
+}
+
 TEST(ResultsFigures, LinesOnEachOtherAreOneThatSaysOfHowMany) {
   Rows rows;
   for (const char* run : {"a", "b", "c", "d", "e"})

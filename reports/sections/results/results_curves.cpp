@@ -5,6 +5,7 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,7 @@
 #include "render/figures/curves/method_series.hpp"
 #include "render/figures/score_text.hpp"
 #include "render/figures/unit_scale.hpp"
+#include "render/plot/layers.hpp"
 #include "reports/sections/results/results_comparison.hpp"
 #include "reports/sections/results/results_conventions.hpp"
 #include "reports/sections/study_figures.hpp"
@@ -160,13 +162,12 @@ bool drop_compared_with(std::vector<ErrorLine>& curves) {
   return !std::ranges::all_of(curves, is_0) && std::erase_if(curves, is_0) > 0;
 }
 
-/// The curves of a block, those without a value left out; many, or of few groups of runs, are drawn
-/// without bands, and those of many that are the same are joined.
+/// The curves of a block, those without a value left out; more than bars can be told apart, or of
+/// few groups of runs, are drawn without bands, and those of many that are the same are joined.
 Curves curves_of(const ResultsView& view, const ResultsBlock& block, const Quantity& quantity) {
   const std::vector<ResultsLine> lines = view.lines(block, quantity);
   const bool is_log = scale_of(block.levels) == Scale::kLog;
   Curves curves;
-  curves.has_bands = lines.size() <= kMethodStyles && view.has_groups_for_intervals();
   for (std::size_t i = 0; i < lines.size(); ++i) {
     ErrorLine curve = curve_of(view, block, quantity, lines[i], i);
     if (std::ranges::none_of(curve.mean, is_known)) continue;
@@ -176,7 +177,22 @@ Curves curves_of(const ResultsView& view, const ResultsBlock& block, const Quant
   if (is_distance_from_another(quantity))
     curves.lacks_compared_with = drop_compared_with(curves.lines);
   if (lines.size() > kMostApart) join_same(curves);
+  curves.has_bands = curves.lines.size() <= kMostBars && view.has_groups_for_intervals();
   return curves;
+}
+
+/// Says where intervals are that have no room in a figure; nothing where there are none.
+std::optional<Note> intervals_note(const ResultsView& view, const Curves& curves) {
+  const auto has_interval = [](const ErrorLine& line) {
+    return std::ranges::any_of(line.low, is_known);
+  };
+  if (curves.has_bands || !view.has_groups_for_intervals() ||
+      std::ranges::none_of(curves.lines, has_interval))
+    return std::nullopt;
+  return Note{
+      fmt::format("The table has the 95\u00A0% intervals, for which {} lines leave no room.",
+                  curves.lines.size()),
+      ThemeColour::kMuted};
 }
 
 /// In a unit in which the values of the curves need no power of ten; an MPE is in m everywhere.
@@ -468,8 +484,10 @@ std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& 
                         view.has_groups_for_intervals() ? kNoneIsBest : kTooFewRuns);
   spec.title = fmt::format("{}: {}", block.title, finding.empty() ? quantity.label : finding);
   if (quantity.unit == "%") spec.log_from = HUGE_VAL;
+  const std::optional<Note> of_intervals = intervals_note(view, curves);
   spec.methods = drawn(std::move(curves));
   Figure figure = level_curve_figure(spec);
+  if (of_intervals) figure.notes.push_back(*of_intervals);
   add_sample_of_runs(figure.panels.front(), spec.points);
   if (const auto aim = aim_of(quantity)) add_aim(figure.panels.front(), *aim, spec.methods);
   if (spec.x_scale == Scale::kLog && std::get<double>(block.levels.front().value) == 0.0)
@@ -503,6 +521,8 @@ std::optional<Figure> overview_figure(const ResultsView& view, const ResultsOver
     const Curves curves = curves_of(view, block, quantity);
     judge_by_pairs(view, block, quantity, judged.emplace_back(curves.lines));
     panel.lines = drawn(curves);
+    if (const auto note = intervals_note(view, curves); note && spec.notes.empty())
+      spec.notes.push_back(*note);
     joined.insert(joined.end(), curves.joined.begin(), curves.joined.end());
     panel.points = runs_of(view, block, quantity, curves);
     if (!panel.points.empty()) spec.remark = kSingleRunsRemark;
