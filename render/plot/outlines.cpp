@@ -16,7 +16,9 @@ constexpr int kSlices = 8;
 constexpr int kShades = 32;
 constexpr int kLineShades = 64;
 constexpr double kTextShareOfPage = 0.37;  // The width of a text at a point.
-constexpr std::size_t kTextLines = 5;      // Of a text beside a point.
+constexpr std::size_t kFewestTextLines = 5;  // That a text beside a point may have, and
+constexpr std::size_t kMostTextLines = 12;   // those of few texts, which share a page of
+constexpr std::size_t kLinesOfPage = 64;
 constexpr double kTextLineStep = 1.15;     // From one of them to the next, em.
 
 Point cubic_at(Point a, Point b, Point c, Point d, double t) {
@@ -233,8 +235,10 @@ std::vector<TextLine> placed_text(const Texts& texts, std::size_t i, const Panel
   const double em = theme.tick_font_pt, most = kTextShareOfPage * theme.width_pt / em;
   std::vector<ShapedText> shaped{shape_label_within(theme, texts.text[i], most, texts.text)};
   if (is_elided(shaped.front()) && texts.align != Align::kMiddle) {
+    const std::size_t share =
+        std::clamp(kLinesOfPage / texts.text.size(), kFewestTextLines, kMostTextLines);
     std::vector<ShapedText> lines =
-        wrap_text(label_in(theme, texts.text[i]), most, kTextLines, theme.font.get());
+        wrap_text(label_in(theme, texts.text[i]), most, share, theme.font.get());
     if (std::ranges::none_of(lines, is_elided)) shaped = std::move(lines);
   }
   std::vector<TextLine> lines;

@@ -42,7 +42,7 @@ std::vector<Shape> cell_shapes(const Cells& cells, const PanelMap& map, const Th
 std::vector<TextLine> cell_texts(const Cells& cells, const PanelMap& map, const Theme& theme);
 
 /// The i-th text at its place, no wider than .37 of the page: a longer one beside its point in up
-/// to five lines, else elided. Empty if its position holds a NaN.
+/// to twelve lines, fewer of more than five texts, else elided. Empty if its position holds a NaN.
 std::vector<TextLine> placed_text(const Texts& texts, std::size_t i, const PanelMap& map,
                                   const Theme& theme);
 
