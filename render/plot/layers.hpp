@@ -14,7 +14,7 @@ void draw_layers(const Panel& panel, std::size_t panel_index, const PanelMap& ma
 
 bool has_image(const Panel& panel);
 
-/// More bars side by side are too thin to be told apart.
+/// More bars side by side are too thin to be distinguished.
 inline constexpr std::size_t kMostBars = 20;
 
 /// Whether at some x more than three bands of the panel have a value in common: none of them could

@@ -162,8 +162,8 @@ bool drop_compared_with(std::vector<ErrorLine>& curves) {
   return !std::ranges::all_of(curves, is_0) && std::erase_if(curves, is_0) > 0;
 }
 
-/// The curves of a block, those without a value left out; more than bars can be told apart, or of
-/// few groups of runs, are drawn without bands, and those of many that are the same are joined.
+/// The curves of a block, those without a value left out, and those of many that are the same
+/// joined. Of few groups of runs, or more than can have bars, they have no bands.
 Curves curves_of(const ResultsView& view, const ResultsBlock& block, const Quantity& quantity) {
   const std::vector<ResultsLine> lines = view.lines(block, quantity);
   const bool is_log = scale_of(block.levels) == Scale::kLog;
