@@ -236,6 +236,7 @@ std::vector<fs::path> record_files(const fs::path& location) {
       if (!entry->is_directory(unknown) && is_kept_in(entry->path()))
         files.push_back(entry->path().lexically_relative(location));
     }
+    if (error) throw IoError(path.string(), "cannot be listed: " + error.message());
   }
   std::ranges::sort(files);
   return files;

@@ -12,7 +12,8 @@
 namespace mapproof {
 
 /// The files that hold records, without the timings: those of a study of any kind, of a map or of
-/// one log's result. Paths below `location`, ascending. Files that cannot be listed are left out.
+/// one log's result. Paths below `location`, ascending.
+/// @throws IoError if a folder cannot be listed.
 std::vector<std::filesystem::path> record_files(const std::filesystem::path& location);
 
 /// The folder below `root` whose record_files() include the file; empty if none does.
@@ -78,7 +79,8 @@ struct RecordSets {
 
 /// Reads the records of two folders or files. A file of a study that cannot be read is listed as a
 /// problem; the others are read. Maps and details with equal bytes on both sides are left out.
-/// @throws IoError if a side has no records, or if the file that states their kind cannot be read.
+/// @throws IoError if a side has no records, if a folder cannot be listed, or if the file that
+/// states their kind cannot be read.
 RecordSets read_records(const std::filesystem::path& baseline,
                         const std::filesystem::path& current);
 
