@@ -56,6 +56,7 @@ Judged judged(int groups, const Factor& factor) {
   const auto before =
       write_table(folder, "before", groups, [](const std::string&, int) { return 1.0; });
   const auto after = write_table(folder, "after", groups, factor);
+  std::filesystem::create_directory(folder / "history");
   HistoryStore store = HistoryStore::open(folder / "history");
   NightlyRun first = nightly_run_of(before, 1), second = nightly_run_of(after, 2);
   judge_nightly_run(store, first, std::nullopt);
