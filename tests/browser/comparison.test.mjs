@@ -171,7 +171,54 @@ test("a comparison is printed without its controls, its images below each other"
     await close();
   });
 
+// The size of the smallest words of each image of a figure of ours that the page shows, in CSS pixels:
+// those of an SVG by its glyphs; a PNG of a figure is 600 pt wide, with words of 11 pt.
+const wordsOfImages = (page) => page.evaluate(() => {
+  const kUnitsOfFont = 2048;
+  const images = [...document.querySelectorAll(".change img, .drawn .canvas img")];
+  return images.filter((image) => image.getClientRects().length > 0).map((image) => {
+    const [, format, data] = /^data:image\/([a-z]+)[^,]*,(.*)$/.exec(image.currentSrc);
+    let share = 11 / 600;
+    if (format === "svg") {
+      const svg = new DOMParser().parseFromString(new TextDecoder().decode(
+        Uint8Array.from(atob(data), (sign) => sign.charCodeAt(0))), "image/svg+xml").documentElement;
+      const sizes = [...svg.querySelectorAll('g[transform*="scale("]')].map((words) =>
+        kUnitsOfFont * Number(/scale\(([\d.]+)/.exec(words.getAttribute("transform"))[1]));
+      share = Math.min(...sizes) / svg.viewBox.baseVal.width;
+    }
+    const { naturalWidth, naturalHeight, clientWidth, clientHeight } = image;
+    const shown = Math.min(clientWidth, clientHeight * naturalWidth / naturalHeight);
+    const { top, bottom } = image.getBoundingClientRect();
+    return { of: image.alt, size: share * shown, top, bottom };
+  });
+});
+const kRounding_px = .05;
+
 for (const file of kPages) {
+  test(`${file}: printed images of figures stand below each other, with words of 8 pt`, options,
+    async () => {
+      const { page, close } = await openWhole(file, "print", kPaper_px);
+      const images = await wordsOfImages(page), kLeast_px = 8 / .75;
+      assert.ok(images.length > 0);
+      images.forEach(({ of, size, top }, i) => {
+        assert.ok(size > kLeast_px - kRounding_px, `${of}: ${.75 * size} pt`);
+        assert.ok(i === 0 || top >= images[i - 1].bottom, of);
+      });
+      await close();
+    });
+
+  test(`${file}: on a phone images of figures have words of 10 px`, options, async () => {
+    const { page, close } = await openWhole(file, "screen", 390);
+    const images = await wordsOfImages(page);
+    assert.ok(images.length > 0);
+    for (const { of, size } of images) assert.ok(size > 10 - kRounding_px, `${of}: ${size} px`);
+    const wider = await page.locator(".change").evaluateAll((all) =>
+      all.filter((each) => each.scrollWidth > each.clientWidth).length);
+    assert.equal(wider, 0);
+    assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390);
+    await close();
+  });
+
   test(`${file}: no comparison is wider than paper, which would shrink the page`, options, async () => {
     const { page, close } = await openWhole(file, "print", kPaper_px);
     const { width, wider } = await page.evaluate((most) => ({

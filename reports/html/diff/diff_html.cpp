@@ -86,7 +86,10 @@ data stage_data(const DiffItem& item, const ShownImages& shown, const DiffResult
 
 data change_data(const ShownImages& shown, const std::string& id) {
   if (!shown.change) return data(false);
-  return pane_data(*shown.change, {"change", "What changed", ""}, id);
+  const SideName name{"change", "What changed", ""};
+  data out = pane_data(*shown.change, name, id);
+  out.set("narrow", shown.narrow_change ? pane_data(*shown.narrow_change, name, id) : data(false));
+  return out;
 }
 
 data cluster_data(const ShownImages& shown) {

@@ -1,6 +1,7 @@
 #include "reports/html/diff/shown_images.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <string_view>
@@ -15,6 +16,8 @@
 #include "core/base/text/base64.hpp"
 #include "render/image/png_read.hpp"
 #include "render/output/write_figure.hpp"
+#include "render/plot/layout.hpp"
+#include "render/svg/svg.hpp"
 #include "render/theme/theme.hpp"
 #include "reports/diff/figures/change_figure.hpp"
 #include "reports/diff/images/pixel_diff.hpp"
@@ -195,13 +198,34 @@ std::optional<Heat> heat_image(const ImageFile& file, const ImageOptions& option
   return heat;
 }
 
-std::optional<ShownImage> change_image(const DiffItem& item,
-                                       const std::optional<FigureValues>& values) {
-  const std::optional<Figure> figure = change_figure(item, values);
-  if (!figure) return std::nullopt;
-  const std::string png = figure_png(*figure, report_theme());
-  return ShownImage{"data:image/png;base64," + base64(png), png_size(png, "the figure of changes"),
-                    ""};
+/// That of reports, so narrow that its smallest words have 10 px in the column of a phone.
+Theme phone_theme() {
+  constexpr double kColumn_px = 345.0, kWords_px = 10.0;
+  Theme theme = report_theme();
+  const double width_pt = kColumn_px * theme.tick_font_pt / kWords_px;
+  theme.height_pt *= width_pt / theme.width_pt;
+  theme.width_pt = width_pt;
+  return theme;
+}
+
+ShownImage svg_image(const Figure& figure, const Theme& theme) {
+  constexpr double kPixelsPerPoint = 96.0 / 72.0;
+  const Drawing drawing = lay_out(figure, theme);
+  const auto pixels = [](double length_pt) {
+    return static_cast<int>(std::lround(kPixelsPerPoint * length_pt));
+  };
+  return {fmt::format("data:{};base64,{}", media_type("svg"), base64(to_svg(drawing))),
+          ImageSize{pixels(drawing.width), pixels(drawing.height)}, ""};
+}
+
+/// What changed, drawn for a wide page and for a narrow one.
+void draw_change(const DiffItem& item, const std::optional<FigureValues>& values,
+                 ShownImages& shown) {
+  std::optional<Figure> figure = change_figure(item, values);
+  if (!figure) return;
+  shown.change = svg_image(*figure, report_theme());
+  figure->columns = 1;
+  shown.narrow_change = svg_image(*figure, phone_theme());
 }
 
 /// The files of an item's image, and what is made of them.
@@ -235,7 +259,7 @@ ShownImages read_all(const DiffItem& item, const Plan& plan, const ImageOptions&
   std::optional<FigureValues> values;
   try {
     if (plan.heat || plan.change) values = figure_values(item);
-    if (plan.change) shown.change = change_image(item, values);
+    if (plan.change) draw_change(item, values, shown);
   } catch (const IoError&) {
     values.reset();  // The verdict reports it.
   }
@@ -246,6 +270,7 @@ ShownImages read_all(const DiffItem& item, const Plan& plan, const ImageOptions&
   } catch (const IoError& error) {
     ShownImages none;
     none.change = std::move(shown.change);
+    none.narrow_change = std::move(shown.narrow_change);
     none.absent = std::string("Not shown: ") + error.what();
     return none;
   }
@@ -264,7 +289,9 @@ void drop_images(std::vector<ShownImages>& shown, const ImageBudget& budget) {
     return true;
   };
   for (ShownImages& images : shown)
-    if (!fits(images.change)) images.change.reset();
+    if (!fits(images.change)) images.change = images.narrow_change = std::nullopt;
+  for (ShownImages& images : shown)
+    if (!fits(images.narrow_change)) images.narrow_change.reset();
   for (ShownImages& images : shown) {
     if (fits(images.heat)) continue;
     images.heat.reset();

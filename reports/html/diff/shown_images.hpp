@@ -14,7 +14,8 @@ namespace mapproof {
 /// An image within the page.
 struct ShownImage {
   std::string uri;  ///< "data:image/png;base64,…".
-  /// In pixels; none: an SVG, or a heat map whose pixels are not those of the images beside it.
+  /// In pixels; none: an SVG of a file, or a heat map whose pixels are not those of the images
+  /// beside it.
   std::optional<ImageSize> size;
   std::string note;  ///< For readers: its renderer, or how it was made; may be empty.
 };
@@ -23,7 +24,8 @@ struct ShownImage {
 struct ShownImages {
   std::string format;  ///< "png", "svg"; empty: none is shown.
   std::optional<ShownImage> baseline, current, heat;
-  std::optional<ShownImage> change;  ///< What changed in the values, drawn: change_figure().
+  std::optional<ShownImage> change;  ///< What changed in the values, as SVG: change_figure().
+  std::optional<ShownImage> narrow_change;  ///< The same for a phone, its panels in one column.
   std::optional<PixelBox> cluster;   ///< The largest cluster of changed pixels, if any,
   ImageSize cluster_in;              ///< in images of this size.
   double changed_share = 0.0;        ///< Of the heat map's pixels, or without one of the images'.

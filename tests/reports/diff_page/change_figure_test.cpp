@@ -337,6 +337,34 @@ TEST(DiffPage, ShowsWhatMovedBesideAChangeOfData) {
   }
 }
 
+TEST(DiffPage, ANarrowPageHasThePanelsOfWhatChangedInOneColumn) {
+  const auto twice = [](Figure figure) {
+    Panel& square = figure.panels[0];
+    square.equal_aspect = true;
+    square.x.limits = square.y.limits = Range{0.0, 9.0};
+    Panel second = square;
+    prefix_mark_ids(second, "b-");
+    figure.panels.push_back(second);
+    return figure;
+  };
+  const TemporaryFolder folder;
+  write_figure(twice(landmarks()), report_theme(), OutputFolder(folder / "a"));
+  write_figure(twice(moved()), report_theme(), OutputFolder(folder / "b"));
+  const DiffResult result = folder_diff(folder / "a", folder / "b");
+  const std::vector<ShownImages> shown = shown_images(result, {});
+  ASSERT_EQ(shown.size(), 1U);
+  ASSERT_TRUE(shown[0].change && shown[0].narrow_change);
+  const ImageSize wide = *shown[0].change->size, narrow = *shown[0].narrow_change->size;
+  EXPECT_EQ(wide.width, 800);
+  EXPECT_GT(wide.width, wide.height);
+  EXPECT_LT(1.5 * narrow.width, narrow.height);
+  EXPECT_GE(345.0 / narrow.width * report_theme().tick_font_pt * 96.0 / 72.0, 9.99)
+      << "px of words";
+  const std::string page = diff_html(result, shown, load_templates());
+  EXPECT_NE(page.find("<source media=\"(max-width: 37rem)\" srcset=\"data:image/svg+xml;base64,"),
+            std::string::npos);
+}
+
 TEST(DiffPage, AShiftOfLimitsDoesNotDrownTheHeatMap) {
   const std::string page = page_of(landmarks(), stretched());
   EXPECT_NE(page.find("values drawn on common axes"), std::string::npos);
