@@ -95,6 +95,7 @@ bool begins_host(std::string_view text, std::size_t at) {
 }
 
 constexpr std::size_t kLongestPath = 4096;
+constexpr std::string_view kEndsOfPath = "\"'<>\n\t";
 
 void replace_folder(std::string& text, const std::string& folder) {
   for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder, at)) {
@@ -109,8 +110,8 @@ void replace_folder(std::string& text, const std::string& folder) {
 /// too; npos: nowhere.
 std::size_t end_of_folder(std::string_view text, std::size_t at,
                           const std::vector<std::string_view>& names) {
-  constexpr std::string_view kEnds = "\"'<>\n\t";
-  const std::size_t end = std::min(text.size(), at + kLongestPath);
+  const std::size_t end = at + std::min(text.substr(at, kLongestPath).find_first_of(kEndsOfPath),
+                                        std::min(text.size() - at, kLongestPath));
   std::vector<std::string_view> there;
   while (at < end && text[at] == '/') {
     while (at < end && text[at] == '/') ++at;
@@ -118,9 +119,8 @@ std::size_t end_of_folder(std::string_view text, std::size_t at,
     if (there.size() + 1 == names.size() && std::equal(there.begin(), there.end(), names.begin()) &&
         text.substr(at).starts_with(names.back()) && is_end_of_name(text, at + names.back().size()))
       return at + names.back().size();
-    const std::size_t stop = std::min(text.find_first_of(kEnds, at), end);
-    const std::size_t slash = text.find('/', at);
-    if (slash >= stop) break;
+    const std::size_t slash = text.substr(0, end).find('/', at);
+    if (slash == std::string_view::npos) break;
     const std::string_view name = text.substr(at, slash - at);
     if (name == "..") {
       if (!there.empty()) there.pop_back();
@@ -143,23 +143,30 @@ std::vector<std::string_view> names_of(std::string_view folder) {
   return names;
 }
 
-/// The same where the path takes a detour, as "/media/../home/ann".
+/// The same where the path takes a detour, as "/media/../home/ann". In linear time, since a page
+/// holds images as text with many slashes.
 void replace_detours(std::string& text, const std::string& folder) {
   const std::vector<std::string_view> names = names_of(folder);
+  const std::string last = "/" + std::string(names.back());
   std::size_t tried = 0;  // No path that begins before it is open.
+  std::size_t next = 0;   // Of the last name, behind which no path ends before.
   for (std::size_t at = 0; (at = text.find('/', at)) != std::string::npos; ++at) {
     const std::string_view rest = std::string_view(text).substr(at);
     if (!rest.starts_with("/../") && !rest.starts_with("/./") && !rest.starts_with("//")) continue;
     std::size_t begin = std::max(tried, at > kLongestPath ? at - kLongestPath : 0);
-    if (const std::size_t line = text.find_last_of("\"'<>\n\t", at); line != std::string::npos)
-      begin = std::max(begin, line);
+    const std::string_view before = std::string_view(text).substr(begin, at - begin);
+    if (const std::size_t end = before.find_last_of(kEndsOfPath); end != before.npos) begin += end;
     for (; (begin = text.find('/', begin)) <= at; ++begin) {
+      if (next < begin) next = text.find(last, begin);
+      if (next == std::string::npos) return;
+      if (next - begin > kLongestPath) continue;
       if (begin > 0 && (is_of_name(text[begin - 1]) || text[begin - 1] == '/')) continue;
       if (begins_host(text, begin + 1)) continue;
       const std::size_t end = end_of_folder(text, begin, names);
       if (end == std::string::npos || end <= at) continue;
       text.replace(begin, end - begin, "~");
       at = begin;
+      next = 0;
       break;
     }
     tried = at + 1;

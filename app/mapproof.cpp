@@ -187,6 +187,7 @@ int run_command_of(int argc, char** argv) {
     const bool has_codes = sub->get_footer().find("Exit codes:") != std::string::npos;
     sub->footer(sub->get_footer() + (has_codes ? "" : std::string("\n") + kExitCodes));
   }
+  app.require_subcommand(0, 1);  // "map" is an ID, too: "approve BASELINE CURRENT map".
 
   std::vector<std::string> words = ordered_words(argc, argv);
   if (asks_for_version_json(words)) {
@@ -224,10 +225,13 @@ int run_command_of(int argc, char** argv) {
 }
 
 /// Standard streams that the caller closed are /dev/null: no file or socket that is opened later
-/// may get their numbers, which children take for their own streams.
+/// may get their numbers, which children take for their own streams. What is written to standard
+/// output fails there, as on a full disk, since it would be lost; a message may be.
 void open_standard_streams() {
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (::fcntl(stream, F_GETFD) < 0) (void)::open("/dev/null", O_RDWR);  // The lowest free number.
+  constexpr std::pair<int, int> kModes[] = {
+      {STDIN_FILENO, O_RDONLY}, {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_RDWR}};
+  for (const auto& [stream, mode] : kModes)
+    if (::fcntl(stream, F_GETFD) < 0) (void)::open("/dev/null", mode);  // The lowest free number.
 }
 
 /// Raises the limit of the stack to what is usual, as far as it may be raised, for this thread, those

@@ -11,6 +11,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/base/files/paths.hpp"
 #include "core/base/text/spelling.hpp"
 #include "core/json/json_text.hpp"
@@ -49,12 +50,16 @@ std::vector<Verdict> verdicts_in(const std::string& list) {
 }
 
 /// mapproof-diff.json of the baseline: in the folder, or next to the file.
+/// @throws IoError if it is not a file, or is a link that leads out of the folder.
 fs::path settings_beside(const std::string& baseline) {
   std::error_code error;
-  const fs::path folder =
-      fs::is_directory(baseline, error) ? fs::path(baseline) : fs::path(baseline).parent_path();
+  const bool is_folder = fs::is_directory(baseline, error);
+  const fs::path folder = is_folder ? fs::path(baseline) : fs::path(baseline).parent_path();
   const fs::path file = folder / "mapproof-diff.json";
-  return fs::is_regular_file(file, error) ? file : fs::path();
+  if (!fs::exists(fs::symlink_status(file, error))) return {};
+  if (is_folder) refuse_links_out(folder);
+  if (!fs::is_regular_file(file, error)) throw IoError(file.string(), "is not a file");
+  return file;
 }
 
 /// How many of the outputs replace the text.

@@ -106,6 +106,16 @@ TEST(Environment, WithClosedStreamsWritesNothingIntoItsOwnFiles) {
   }
 }
 
+TEST(Environment, WithClosedOutputLosesNoResultWithoutAWord) {
+  for (const char* words : {"--version", "methods --json"}) {
+    SCOPED_TRACE(words);
+    const Outcome outcome =
+        run_program({"bash", "-c", std::string("\"$0\" ") + words + " >&-", program()});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.error, "mapproof: standard output: cannot be written\n");
+  }
+}
+
 TEST(Environment, WhereNobodyReadsTheOutputEndsWithoutACrash) {
   for (const char* words : {"MAP | true; exit ${PIPESTATUS[0]}", "MAP --json > /dev/full",
                             "\"$0\" --help > /dev/full; MAP"}) {

@@ -22,6 +22,14 @@ TEST(ApproveCommand, TakesWhatIsNamedAndNothingElse) {
   EXPECT_EQ(mapproof({"diff", two.before, two.after}).exit_code, 0);
 }
 
+TEST(ApproveCommand, TakesAnIdThatIsCalledAsACommand) {
+  const TwoStudies two;
+  const Outcome outcome = mapproof({"approve", two.before, two.after, "map"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.error.find("\"map\""), std::string::npos) << outcome.error;
+  EXPECT_EQ(outcome.error.find("OBSERVATIONS"), std::string::npos) << outcome.error;
+}
+
 TEST(ApproveCommand, TakesAFileOfApprovals) {
   const TwoStudies two;
   two.change_image();

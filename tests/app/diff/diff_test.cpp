@@ -169,6 +169,20 @@ TEST(DiffCommand, GoesByTheSettingsBesideTheBaseline) {
   EXPECT_EQ(mapproof({"diff", two.after, two.before}).exit_code, 1);
 }
 
+TEST(DiffCommand, ReadsNoSettingsBehindALinkAndDropsNone) {
+  const TwoStudies two;
+  const fs::path settings = fs::path(two.before) / "mapproof-diff.json";
+  const fs::path secret = two.folder.file("secret.txt", "root:x:0");
+  for (const fs::path& target : {secret, two.folder / "none", fs::path("/dev/zero")}) {
+    fs::remove(settings);
+    fs::create_symlink(target, settings);
+    const Outcome outcome = mapproof({"diff", two.before, two.after});
+    EXPECT_EQ(outcome.exit_code, 2) << target;
+    EXPECT_EQ(outcome.error.find("mapproof: " + settings.string() + ": is "), 0) << outcome.error;
+    EXPECT_EQ(outcome.error.find("root"), std::string::npos);
+  }
+}
+
 TEST(DiffCommand, TakesFoldersOfImagesOfOthersAndTwoFiles) {
   const TwoStudies two;
   const std::string before = two.before + "/figures", after = two.after + "/figures";

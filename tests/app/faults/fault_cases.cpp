@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <map>
@@ -205,13 +206,15 @@ bool erase_leftovers(Files& files) {
          }) > 0;
 }
 
-/// Whether the page of a comparison names an image that could not be read again for it.
-bool states_what_is_not_shown(const Files& files) {
+/// Whether the page of a comparison names what could not be read again for it: an image that is not
+/// shown, or a record that cannot be approved.
+bool states_what_is_unread(const Files& files) {
   const auto page = files.find("diff.html");
-  if (page == files.end()) return false;
-  const std::size_t words = page->second.find("Not shown: ");
-  return words != std::string::npos &&
-         page->second.find(": cannot be ", words) != std::string::npos;
+  return page != files.end() &&
+         std::ranges::any_of(std::array{"Not shown: ", "not approved: "}, [&](const char* begin) {
+           const std::size_t words = page->second.find(begin);
+           return words < page->second.find(": cannot be ", words);
+         });
 }
 
 void fail_at(const FaultCase& tried, const std::string& cores, const std::string& kind, long call,
@@ -234,7 +237,7 @@ void fail_at(const FaultCase& tried, const std::string& cores, const std::string
       EXPECT_EQ(lines_of_program(outcome.error), 0) << outcome.error;
       // Where the old folder cannot be removed, the new one is there all the same.
       const bool are_left = tried.name == "approve" && erase_leftovers(found);
-      if (states_what_is_not_shown(found)) {
+      if (states_what_is_unread(found)) {
         found.erase("diff.html");
       } else {
         EXPECT_EQ(difference(found, whole), "") << "ended as ever, with other files";
