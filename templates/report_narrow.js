@@ -59,33 +59,95 @@ function holdOf(box, frame) {
     y: box.y + box.height / 2 };
 }
 
-// The mark that words stand beside: the nearest one, within a line of text.
-function markBeside(box, marks) {
-  const off = ({ x, y }) => Math.hypot(Math.max(0, box.x - x, x - box.x - box.width),
-    Math.max(0, box.y - y, y - box.y - box.height));
-  const nearest = marks.reduce((best, mark) => (best && off(best) <= off(mark) ? best : mark), null);
-  return nearest && off(nearest) < box.height ? nearest : null;
+// Marks and ellipses about them.
+function shapesOfMarks(panel) {
+  return panel.filter((part) => kindOf(part) === "marker").flatMap(
+    (part) => (part.localName === "g" ? [...part.querySelectorAll("use, path")] : [part]));
 }
 
-// How far words move that stand in a frame or beside it: with the mark that they name.
-function shiftOfWords(words, box, marks, before, after, at) {
+// The lines that lead from marks to their names, each with its ends.
+function leadersOf(panel) {
+  const kLine = /^m(-?[\d.]+) (-?[\d.]+)l(-?[\d.]+) ?(-?[\d.]+)$/;
+  const paths = panel.filter((part) => kindOf(part) === "leader")
+    .flatMap((part) => [...part.querySelectorAll("path")]);
+  return paths.flatMap((path) => {
+    const [x, y, right, down] = (kLine.exec(path.getAttribute("d")) ?? []).slice(1).map(Number);
+    return down === undefined ? [] : [{ path, from: { x, y }, to: { x: x + right, y: y + down } }];
+  });
+}
+
+// Of points, or what has one, the nearest to a box within a reach; null without one.
+function nearestTo(box, all, reach, pointOfOne = (one) => one) {
+  const off = (one) => {
+    const { x, y } = pointOfOne(one);
+    return Math.hypot(Math.max(0, box.x - x, x - box.x - box.width),
+      Math.max(0, box.y - y, y - box.y - box.height));
+  };
+  const nearest = all.reduce((best, one) => (best && off(best) <= off(one) ? best : one), null);
+  return nearest && off(nearest) < reach ? nearest : null;
+}
+
+// The mark that words stand beside: the one that a line leads to them from, else the nearest one
+// within a line of text.
+function markBeside(box, marks, leader) {
+  if (leader) return nearestTo({ ...leader.from, width: 0, height: 0 }, marks, Infinity);
+  return nearestTo(box, marks, box.height);
+}
+
+// How far words move that stand in a frame or beside it: with their mark, if they have one.
+function shiftOfWords(box, mark, { before, after, at }) {
   const hold = holdOf(box, before);
-  if (hold.x > before.right || hold.x < before.x) {
+  if (isBesideFrame(box, before)) {
     return { x: hold.x < before.x ? 0 : after.right - before.right, y: at(hold).y - hold.y };
   }
-  const held = markBeside(box, marks) ?? hold, moved = at(held);
+  const held = mark ?? hold, moved = at(held);
   return { x: moved.x - held.x, y: moved.y - held.y };
 }
 
-// Hides words that would be on others, the later ones.
-function hideCrowded(svg, words) {
+function isBesideFrame(box, frame) {
+  const { x } = holdOf(box, frame);
+  return x > frame.right || x < frame.x;
+}
+
+const touches = (a, b) => a.x < b.x + b.width && b.x < a.x + a.width && a.y + 1 < b.y + b.height &&
+  b.y + 1 < a.y + a.height;
+
+// Where a name stands that moves with its mark: as far from it as before, on the first side of it
+// where it is on no mark and no other name, moved along into the frame; a line leads also to one that
+// is farther. Null if there is none.
+function placeOfName(box, mark, leader, { after, at, taken }) {
+  const kLine = 1.2;
+  const moved = at(mark), { width, height } = box;
+  const right = box.x - mark.x, below = box.y - mark.y;
+  const farther = (below + height / 2 < 0 ? -1 : 1) * kLine * height;
+  const rows = (leader ? [0, farther] : [0]).flatMap((off) => [below + off, -below - height - off]);
+  const places = rows.flatMap((y) => [right, -right - width].map(
+    (x) => ({ x: Math.max(after.x, Math.min(moved.x + x, after.right - width)),
+      y: moved.y + y, width, height })));
+  return places.find((place) => place.y >= after.y && place.y + height <= after.bottom &&
+    !taken.some((other) => touches(place, other))) ?? null;
+}
+
+// Leads a line from a mark to where its name stands now.
+function leadTo(svg, { path, from }, mark, moved, place) {
+  const to = { x: Math.min(Math.max(moved.x, place.x), place.x + place.width),
+    y: Math.min(Math.max(moved.y, place.y), place.y + place.height) };
+  const x = to.x - moved.x, y = to.y - moved.y, length = Math.max(Math.hypot(x, y), 1e-9);
+  const rim = Math.min(1, Math.hypot(from.x - mark.x, from.y - mark.y) / length), rest = 1 - rim;
+  keepAndSet(svg, path, "d",
+    `m${moved.x + rim * x} ${moved.y + rim * y}l${rest * x} ${rest * y}`);
+}
+
+// Hides words that would be on others, the later ones, with the lines that lead to them.
+function hideCrowded(svg, words, leaderOf) {
   const taken = [];
-  const touches = (a, b) => a.x < b.x + b.width && b.x < a.x + a.width && a.y + 1 < b.y + b.height &&
-    b.y + 1 < a.y + a.height;
   for (const each of words) {
     const box = boxIn(svg, each);
-    if (taken.some((other) => touches(box, other))) keepAndSet(svg, each, "display", "none");
-    else taken.push(box);
+    if (taken.some((other) => touches(box, other))) {
+      for (const one of [each, leaderOf.get(each)?.path].filter(Boolean)) {
+        keepAndSet(svg, one, "display", "none");
+      }
+    } else taken.push(box);
   }
 }
 
@@ -108,7 +170,29 @@ function backInto(frame, end, x, width) {
   return over <= 0 ? 0 : Math.max(-over, Math.min(0, frame.x - x));
 }
 
-function narrowPart(svg, part, { before, after, across, down, at, marks, beside }) {
+// Moves the name of a mark, or other words in a frame or beside it.
+function moveLabel(svg, part, words, box, change) {
+  const { before, after, at, marks, leaders, leaderOf, beside, taken } = change;
+  const isName = kindOf(part) === "mark-label";
+  const leader = isName ? nearestTo(box, leaders, box.height, ({ to }) => to) : null;
+  const mark = isBesideFrame(box, before) ? null : markBeside(box, marks, leader);
+  const shift = shiftOfWords(box, mark, change);
+  let place = { ...box, x: box.x + shift.x, y: box.y + shift.y };
+  if (isName) {
+    // Names that stood in the frame stay in it, those beside it in the room there.
+    const end = after.right + (box.x + box.width <= before.right ? 0 : beside);
+    place.x += backInto(after, end, place.x, place.width);
+    if (mark) place = placeOfName(box, mark, leader, change) ?? place;
+    taken.push(place);
+  }
+  moveWords(svg, words, place.x - box.x, place.y - box.y);
+  if (!leader || !mark) return;
+  leaderOf.set(words, leader);
+  leadTo(svg, leader, mark, at(mark), place);
+}
+
+function narrowPart(svg, part, change) {
+  const { before, after, across, down, at } = change;
   const elements = [part, ...part.querySelectorAll("*")];
   for (const element of elements.filter((each) => !each.closest("[transform*='scale(']"))) {
     if (element.localName === "path") {
@@ -133,10 +217,8 @@ function narrowPart(svg, part, { before, after, across, down, at, marks, beside 
         ? { x: at(middle).x - middle.x, y: after.bottom - before.bottom }
         : { x: middle.x > before.right ? after.right - before.right : 0, y: at(middle).y - middle.y };
     } else {
-      shift = shiftOfWords(words, box, marks, before, after, at);
-      // Names that stood in the frame stay in it, those beside it in the room there.
-      const end = after.right + (box.x + box.width <= before.right ? 0 : beside);
-      if (kindOf(part) === "mark-label") shift.x += backInto(after, end, box.x + shift.x, box.width);
+      moveLabel(svg, part, words, box, change);
+      continue;
     }
     moveWords(svg, words, shift.x, shift.y);
   }
@@ -180,10 +262,14 @@ function narrowFrames(svg, parts, rooms, most, height = Infinity) {
     after.bottom = after.y + after.height;
     const { marks } = contentOf(panel, before);
     const change = { before, after, across, down, at, beside: rooms.right - kEdge,
-      marks: marks.map(({ element, x, y }) => ({ element, x, y })) };
+      marks: marks.map(({ element, x, y }) => ({ element, x, y })), leaders: leadersOf(panel),
+      leaderOf: new Map(), taken: [] };
     const axes = parts.axes.filter((label, k) => owners[k] === frame)
       .map((label) => ({ label, box: boxIn(svg, label) }));
-    for (const part of panel) narrowPart(svg, part, change);
+    const isLabel = (part) => kindOf(part) === "mark-label";
+    for (const part of panel.filter((each) => !isLabel(each))) narrowPart(svg, part, change);
+    change.taken.push(...shapesOfMarks(panel).map((shape) => boxIn(svg, shape)));
+    for (const part of panel.filter(isLabel)) narrowPart(svg, part, change);
     for (const { label, box } of axes) {
       const middle = { x: box.x + box.width / 2, y: box.y + box.height / 2 };
       const moved = at(middle);
@@ -194,6 +280,6 @@ function narrowFrames(svg, parts, rooms, most, height = Infinity) {
     Object.assign(frame, after);
     thinLabels(svg, tickLabelsOf(panel, frame).below);
     hideCrowded(svg, panel.filter((part) => kindOf(part) === "mark-label")
-      .flatMap((part) => [part, ...part.querySelectorAll("*")].filter(isWords)));
+      .flatMap((part) => [part, ...part.querySelectorAll("*")].filter(isWords)), change.leaderOf);
   });
 }

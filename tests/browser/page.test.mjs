@@ -639,6 +639,37 @@ test("on a phone each panel keeps the label of its own axis", { skip: !boots }, 
   await close();
 });
 
+const ofSlam = folderOf("slam");
+
+test("on a phone the names of landmarks stand off their marks, where lines lead to them",
+  { skip: !ofSlam }, async () => {
+    const { page, close } = await open(phone, ofSlam);
+    const shown = await figure(page, "path-own");
+    const found = await shown.locator("svg").evaluate((svg) => {
+      const boxOf = (each) => each.getBoundingClientRect();
+      const marks = [...svg.querySelectorAll(".marker [data-landmark]")];
+      const names = [...svg.querySelectorAll(".mark-label [data-words]")]
+        .filter((words) => marks.some((mark) => mark.dataset.landmark === words.dataset.words));
+      const leaders = [...svg.querySelectorAll(".leader path")].map(boxOf);
+      const isOff = (a, b) => a.right < b.left || b.right < a.left || a.bottom < b.top + 1 ||
+        b.bottom < a.top + 1;
+      // A line may end at the edge of the words, whose letters begin a little later.
+      const kReach_px = 4;
+      const isLed = (words) => leaders.some((leader) => leader.right > words.left - kReach_px &&
+        leader.left < words.right + kReach_px && leader.bottom > words.top - kReach_px &&
+        leader.top < words.bottom + kReach_px);
+      return names.map((words) => ({ name: words.dataset.words,
+        on: marks.filter((mark) => !isOff(boxOf(words), boxOf(mark))).map((mark) => mark.id),
+        isLed: isLed(boxOf(words)) }));
+    });
+    assert.equal(found.length, 6);
+    for (const { name, on, isLed } of found) {
+      assert.deepEqual(on, [], name);
+      assert.ok(isLed, name);
+    }
+    await close();
+  });
+
 test("on a phone the main figure keeps its notes, as text below it", { skip: !mrclam }, async () => {
   const { page, close } = await open(phone, mrclam);
   const notes = page.locator(".main-figure small");
