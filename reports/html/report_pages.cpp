@@ -52,17 +52,16 @@ std::set<const FigureBlock*> folded_figures(const Report& report,
   return folded;
 }
 
-/// The figures that are open in the sections that most readers want.
-std::set<const FigureBlock*> wanted_figures(const Report& report,
-                                            const std::set<const FigureBlock*>& folded) {
-  std::set<const FigureBlock*> wanted;
+/// The figures that sections that most readers want have open, before a high page folds some.
+std::set<std::string> wanted_figures(const Report& report) {
+  std::set<std::string> wanted;
   for (const Section& section : report.sections) {
     if (section.interest != Interest::kMost) continue;
     for (const Block& block : section.blocks) {
-      if (const auto* figure = std::get_if<FigureBlock>(&block)) wanted.insert(figure);
+      if (const auto* figure = std::get_if<FigureBlock>(&block)) wanted.insert(figure->id);
       if (const auto* gallery = std::get_if<Gallery>(&block))
-        for (const FigureBlock& figure : gallery->figures)
-          if (!folded.contains(&figure)) wanted.insert(&figure);
+        for (std::size_t i = 0; i < std::min(gallery->open, gallery->figures.size()); ++i)
+          wanted.insert(gallery->figures[i].id);
     }
   }
   return wanted;
@@ -70,15 +69,15 @@ std::set<const FigureBlock*> wanted_figures(const Report& report,
 
 /// Figures in the order in which the first page takes them.
 std::vector<const FigureBlock*> by_weight(const Report& report,
-                                          const std::set<const FigureBlock*>& folded) {
-  const std::set<const FigureBlock*> wanted = wanted_figures(report, folded);
+                                          const std::set<const FigureBlock*>& folded,
+                                          const std::set<std::string>& wanted) {
   std::vector<const FigureBlock*> all = figures(report);
   const std::vector<std::string>& first = report.opening.figure_ids;
   const auto weight = [&](const FigureBlock* figure) {
     if (figure->id == report.opening.main_figure) return 0;
     if (!figure->regressed.empty() || std::ranges::find(first, figure->id) != first.end()) return 0;
-    if (wanted.contains(figure)) return 1;
-    return (figure->value == "scene" ? 3 : 2) + (folded.contains(figure) ? 2 : 0);
+    if (wanted.contains(figure->id)) return folded.contains(figure) ? 2 : 1;
+    return (figure->value == "scene" ? 4 : 3) + (folded.contains(figure) ? 2 : 0);
   };
   std::ranges::stable_sort(all, {}, weight);
   return all;
@@ -329,7 +328,8 @@ std::set<std::string> figures_of_first_page(const Report& report, const DrawingS
   const std::set<const Section*> sections = fold_to_screens(folded);
   std::set<std::string> held;
   std::size_t bytes = 0;
-  for (const FigureBlock* figure : by_weight(folded, folded_figures(folded, sections))) {
+  for (const FigureBlock* figure :
+       by_weight(folded, folded_figures(folded, sections), wanted_figures(report))) {
     const std::size_t own = bytes_of(figure->id);
     if (bytes + own > drawing_bytes) continue;
     bytes += own;

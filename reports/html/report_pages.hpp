@@ -25,8 +25,9 @@ struct PageLimits {
 /// About what a table takes of a page: within a third of it, from a few rows to thousands.
 std::size_t table_bytes(const Table& table);
 
-/// The ids of the figures that the first page holds: those of the opening come first, then figures,
-/// then 3-D figures, in their order, and last those that are folded.
+/// The ids of the figures that the first page holds: those of the opening come first, then those
+/// that sections that most readers want have open, also where the page folds them; then figures and
+/// 3-D figures, in their order, and last others that are folded.
 std::set<std::string> figures_of_first_page(const Report& report, const DrawingSize& bytes_of,
                                             std::size_t drawing_bytes);
 

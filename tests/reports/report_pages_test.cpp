@@ -99,6 +99,19 @@ TEST(ReportPages, TheFirstHoldsTheFiguresOfTheOpeningThenFiguresThenScenes) {
   EXPECT_TRUE(pages[0].opening.figure_ids.empty());
 }
 
+TEST(ReportPages, TheFirstHoldsWhatSectionsOfMostInterestHaveOpenAlsoWhereAHighPageFoldsIt) {
+  constexpr int kSections = 40;
+  Report report = report_of(kSections, 3);
+  std::set<std::string> open;
+  for (int i = kSections / 2; i < kSections; ++i) {
+    Section& section = report.sections[static_cast<std::size_t>(i)];
+    section.interest = Interest::kMost;
+    std::get<Gallery>(section.blocks[1]).open = 2;
+    for (int k = 0; k < 2; ++k) open.insert(fmt::format("f-{}-{}", i, k));
+  }
+  EXPECT_EQ(figures_of_first_page(report, size_of_drawing, open.size() * kDrawing), open);
+}
+
 TEST(ReportPages, EachFigureAndTableStandsOnOnePageWhereItsLinkLeads) {
   const Report report = report_of(40, 5);
   const PageLimits limits{.drawing_bytes = 20'000, .table_bytes = 10'000, .further_bytes = 50'000};
