@@ -179,17 +179,26 @@ class Comparison {
   PathEvaluationOptions paths_;
 };
 
-std::string question_of(const EvaluateArguments& arguments, const std::vector<EvaluatedRun>& runs) {
+/// "the ground truth groundtruth.tum; each estimate is aligned by …".
+std::string compared_words(const EvaluateArguments& arguments,
+                           const std::vector<fs::path>& ground_truths) {
   constexpr std::array kWords = {
       std::pair("none", "as it came"),
       std::pair("rigid", "aligned by rotation and translation of least squares"),
       std::pair("similarity", "aligned by rotation, translation and scale of least squares"),
       std::pair("first-pose", "aligned by its first associated pose")};
-  std::string text =
-      fmt::format("Errors against the ground truth. Each estimate is {}.",
-                  std::ranges::find(kWords, arguments.alignment, [](const auto& words) {
-                    return std::string_view(words.first);
-                  })->second);
+  const std::string files =
+      ground_truths.size() == 1
+          ? "the ground truth " + ground_truths.front().filename().string()
+          : fmt::format("{} ground truths, each estimate with its own", ground_truths.size());
+  return fmt::format("{}; each estimate is {}", files,
+                     std::ranges::find(kWords, arguments.alignment, [](const auto& words) {
+                       return std::string_view(words.first);
+                     })->second);
+}
+
+std::string question_of(const EvaluateArguments& arguments, const std::vector<EvaluatedRun>& runs) {
+  std::string text = "Errors against the ground truth.";
   if (std::ranges::any_of(runs, &EvaluatedRun::has_path))
     text += fmt::format(
         " Poses are associated with the nearest in time within {:g} s{}. ATE: the distance between "
@@ -361,6 +370,7 @@ int evaluate(const EvaluateArguments& arguments, const Invocation& invocation) {
   study.name = arguments.name;
   study.title = arguments.title.empty() ? "Errors against the ground truth" : arguments.title;
   study.question = question_of(arguments, runs);
+  study.compared_with = compared_words(arguments, plan.ground_truths);
 
   const LockedFolder folder(arguments.out);
   write_records(study, runs, folder.files());

@@ -251,6 +251,7 @@ int write_external_study(const Study& study, const std::vector<ExternalMap>& map
       "are aligned to the same anchors and scored alike. Maps of others were imported as files.{}",
       study.experiment.name,
       outputs.all ? "" : ", each with the parameter of the lowest mean MPE at the end,", lost);
+  results.compared_with = "the true positions of the landmarks, and each other";
   const LockedFolder folder(outputs.out);
   const OutputFolder& out = folder.files();
   out.remove("maps");

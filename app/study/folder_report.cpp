@@ -98,21 +98,25 @@ std::string first_warning(const std::vector<std::string>& warnings) {
   return warnings.size() == 1 ? what : fmt::format("{} and {} more", what, warnings.size() - 1);
 }
 
-/// "10 studies of 23 runs", and what is missing of them.
-std::vector<Paragraph> extent_of(const std::vector<FolderReport>& parts) {
+/// "10 studies of 23 runs".
+Paragraph extent_of(const std::vector<FolderReport>& parts) {
   std::size_t runs = 0;
-  std::vector<std::string> incomplete;
+  std::vector<std::string> titles;
   for (const FolderReport& part : parts) {
     runs += part.runs;
-    if (!part.incomplete.empty() || !part.missing.empty()) incomplete.push_back(part.report.title);
+    titles.push_back(part.report.title);
   }
-  std::vector<std::string> titles;
-  for (const FolderReport& part : parts) titles.push_back(part.report.title);
   // The contents have the titles of many.
   const std::string which = titles.size() > 3 ? "" : ": " + listed(titles, 3);
-  const std::string size =
-      fmt::format("{} studies of {}{}. Each result stands beside the one that it has to beat.",
-                  parts.size(), counted(static_cast<long long>(runs), "run"), which);
+  return plain(fmt::format("{} studies of {}{}.", parts.size(),
+                           counted(static_cast<long long>(runs), "run"), which));
+}
+
+/// What is missing of the studies, and which have warnings or are not as expected.
+Paragraph wrong_of(const std::vector<FolderReport>& parts) {
+  std::vector<std::string> incomplete;
+  for (const FolderReport& part : parts)
+    if (!part.incomplete.empty() || !part.missing.empty()) incomplete.push_back(part.report.title);
   std::string wrong = incomplete.empty()
                           ? std::string("no run is missing.")
                           : fmt::format("runs are missing in {}.", listed(incomplete, 3));
@@ -130,7 +134,7 @@ std::vector<Paragraph> extent_of(const std::vector<FolderReport>& parts) {
   if (!unexpected.empty())
     wrong += fmt::format(" Not as expected: {}.", listed(unexpected, kMostNamed));
   if (!warned.empty()) wrong += fmt::format(" To be looked at: {}.", listed(warned, kMostNamed));
-  return {plain(size), {{strong("Warnings"), phrase(": " + wrong)}}};
+  return plain(": " + wrong);
 }
 
 /// How many of the studies that expect a result gave it, and which did not; none if no study
@@ -159,7 +163,9 @@ std::optional<Highlights::Item> verdict_of(const std::vector<FolderReport>& part
 /// many of them for a tile each. Tiles then have the verdict over all, what falls short, and some
 /// of the others.
 void add_first_numbers(const std::vector<FolderReport>& parts, Opening& all) {
-  all.findings = extent_of(parts);  // The sections of each have the others.
+  all.findings = {extent_of(parts)};  // The sections of each have the others.
+  all.wrong = wrong_of(parts);
+  all.compared_with = plain(": what each result has to beat, which stands beside it.");
   const bool are_many = parts.size() > kMostNumbers;
   std::vector<Highlights::Item> numbers;
   for (const FolderReport& part : parts) {
@@ -200,6 +206,20 @@ Paragraph named_finding(const FolderReport& part, std::size_t index) {
   return finding;
 }
 
+/// What all parts say after one word, each after its short title.
+Paragraph joined_line(const std::vector<FolderReport>& parts, Paragraph Opening::*line) {
+  Paragraph all;
+  for (const FolderReport& part : parts) {
+    const Paragraph& own = part.report.opening.*line;
+    if (own.phrases.empty()) continue;
+    if (parts.size() > 1)
+      all.phrases.push_back(
+          phrase((all.phrases.empty() ? ", " : " ") + short_title(part.report.title)));
+    all.phrases.insert(all.phrases.end(), own.phrases.begin(), own.phrases.end());
+  }
+  return all;
+}
+
 /// As many of each part's numbers and findings as leave room for the others'; findings in turns.
 void add_shares(const std::vector<FolderReport>& parts, Opening& all) {
   for (const FolderReport& part : parts) {
@@ -212,6 +232,8 @@ void add_shares(const std::vector<FolderReport>& parts, Opening& all) {
     for (const FolderReport& part : parts)
       if (turn < part.report.opening.findings.size())
         all.findings.push_back(named_finding(part, turn));
+  all.wrong = joined_line(parts, &Opening::wrong);
+  all.compared_with = joined_line(parts, &Opening::compared_with);
 }
 
 /// The small figures of all parts in turns: the first ones of all, then the second ones, and so on.

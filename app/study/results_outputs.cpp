@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <string>
 #include <utility>
@@ -42,12 +43,28 @@ std::vector<std::string> file_remarks(const ResultsStudy& study,
   return remarks;
 }
 
+/// What the results are judged against: as study.json states, else the ground truths beside the
+/// table; empty if there are none.
+std::string compared_words(const ResultsStudy& study, const std::vector<MapRecord>& maps,
+                           const std::vector<GivenPath>& paths,
+                           const std::vector<PathErrors>& errors) {
+  if (!study.compared_with.empty()) return study.compared_with;
+  const auto known = [](const auto& ground_truth) { return ground_truth.has_value(); };
+  const bool has_ground_truth = !errors.empty() ||
+                                std::ranges::any_of(maps, known, &MapRecord::ground_truth_m) ||
+                                std::ranges::any_of(paths, known, &GivenPath::ground_truth);
+  if (!has_ground_truth) return "";
+  return study.methods.size() > 1 ? "the ground truth, and each other" : "the ground truth";
+}
+
 FolderReport table_report(const std::filesystem::path& folder, const std::string& command) {
   const ResultsStudy study = read_results_study(folder);
   const ResultsView view(study);
   const std::vector<MethodComparison> comparisons = compare_methods(view);
   StudyFigures figures = results_figures(view, comparisons);
-  FigureGroup given = given_figures(study, read_given_maps(folder), aligned_paths(folder));
+  const std::vector<MapRecord> maps = read_given_maps(folder);
+  const std::vector<GivenPath> paths = aligned_paths(folder);
+  FigureGroup given = given_figures(study, maps, paths);
   if (!given.empty()) figures.groups.push_back(std::move(given));
   const std::vector<PathErrors> errors = read_path_errors(folder);
   for (FigureGroup& group : path_error_figures(study, errors))
@@ -58,6 +75,7 @@ FolderReport table_report(const std::filesystem::path& folder, const std::string
                                  .comparisons = comparisons,
                                  .figures = figures,
                                  .provenance = given_provenance(view, command),
+                                 .compared_with = compared_words(study, maps, paths, errors),
                                  .remarks = file_remarks(study, folder),
                                  .poses = std::move(poses),
                                  .date = date_of(read_sessions(folder))};

@@ -21,7 +21,8 @@ struct ResultsStudy {
   std::string name;      ///< [a-z][a-z0-9-]*; ids of figures and tables begin with it.
   std::string title;     ///< Of the report.
   std::string question;  ///< What was asked and how it was tried; may be empty.
-  std::string command;   ///< That made the results; may be empty.
+  std::string compared_with = {};  ///< What the results are judged against; may be empty.
+  std::string command;             ///< That made the results; may be empty.
   std::vector<std::string> quantities;          ///< Ids, in the order of tables.
   std::vector<Label> quantity_labels = {};      ///< In place of the dictionary's; may be empty.
   std::vector<Label> setups, methods, factors;  ///< In the order of tables.

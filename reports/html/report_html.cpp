@@ -215,6 +215,14 @@ std::pair<std::string, std::string> first_sentences(const std::string& text) {
   return {text.substr(0, end), end < text.size() ? text.substr(end + 1) : ""};
 }
 
+/// What stands after a word that begins it; none if it is empty.
+std::vector<Paragraph> headed(const std::string& word, const Paragraph& said) {
+  if (said.phrases.empty()) return {};
+  Paragraph all{{strong(word)}};
+  all.phrases.insert(all.phrases.end(), said.phrases.begin(), said.phrases.end());
+  return {all};
+}
+
 void set_opening(data& page, const Report& report, const FigureContext& drawn,
                  const HtmlOptions& options) {
   const Opening& opening = report.opening;
@@ -222,21 +230,20 @@ void set_opening(data& page, const Report& report, const FigureContext& drawn,
   std::vector<Paragraph> all = opening.findings;
   const auto [asked, more] = first_sentences(opening.question);
   if (!asked.empty()) all.insert(all.begin(), Paragraph{{phrase(asked)}});
-  const auto begins_with = [](const Paragraph& finding, std::string_view word) {
-    return !finding.phrases.empty() && finding.phrases.front().text == word;
-  };
-  const auto is_warning = [&](const Paragraph& one) { return begins_with(one, "Warnings"); };
+  if (!more.empty()) all.push_back(Paragraph{{phrase(more)}});
   // What is wrong and what the study is compared with are seen without a click, after what was
   // done.
-  if (all.size() > 2) std::ranges::stable_partition(all.begin() + 1, all.end(), is_warning);
-  if (!more.empty()) all.push_back(Paragraph{{phrase(more)}});
+  std::vector<Paragraph> always = headed("Warnings", opening.wrong);
+  std::ranges::move(headed("Compared with", opening.compared_with), std::back_inserter(always));
+  const std::size_t begin = std::min<std::size_t>(1, all.size()), end = begin + always.size();
+  all.insert(all.begin() + static_cast<std::ptrdiff_t>(begin), always.begin(), always.end());
   std::size_t characters = 0;
-  for (const Paragraph& finding : all) {
-    characters += characters_of(finding);
-    const bool is_open = is_warning(finding) || begins_with(finding, "Compared with") ||
-                         (folded.empty() && findings.size() < kFindingsOfFirstScreen &&
-                          (findings.empty() || characters <= kCharactersOfFirstScreen));
-    (is_open ? findings : folded).push_back(data("phrases", phrases_data(finding, options)));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    characters += characters_of(all[i]);
+    const bool is_open =
+        (i >= begin && i < end) || (folded.empty() && findings.size() < kFindingsOfFirstScreen &&
+                                    (findings.empty() || characters <= kCharactersOfFirstScreen));
+    (is_open ? findings : folded).push_back(data("phrases", phrases_data(all[i], options)));
   }
   page.set("any_opening",
            data(!all.empty() || !opening.figure_ids.empty() || !opening.numbers.items.empty() ||

@@ -238,15 +238,19 @@ struct Standing {
 /// What the reader is to see before anything else: what was done, how good it is, compared with
 /// what, what is wrong and where the rest is. What is empty is left out.
 struct Opening {
-  std::vector<Paragraph> findings;      ///< Two or three sentences: what was done, what is wrong.
+  std::vector<Paragraph> findings;      ///< Two or three sentences, what was done first.
   std::vector<std::string> figure_ids;  ///< Shown small and cropped, each leading to its figure.
   std::optional<Standing> standing = std::nullopt;
   Highlights numbers = {};       ///< How good it is, the most important number first.
   std::string main_figure = {};  ///< Id of the figure that is shown whole; empty: none.
   std::string question = {};     ///< What was asked, before the findings; empty: they say it.
   std::string other_pages = {};  ///< What other pages of the report hold, in words.
-  /// What is wrong, a clause each, whose details follow a colon; empty: nothing is. A finding says
-  /// it to readers; reports of several studies name it.
+  /// What a page always says, after the word "Warnings" and after "Compared with", from the colon
+  /// on; empty: it does not.
+  Paragraph wrong = {};
+  Paragraph compared_with = {};
+  /// What is wrong, a clause each, whose details follow a colon; empty: nothing is. Reports of
+  /// several studies name it.
   std::vector<std::string> warnings = {};
 };
 

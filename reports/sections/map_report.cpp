@@ -349,12 +349,10 @@ Opening opening_of(const MapReportInput& input) {
   opening.findings.push_back(what_was_done(record));
   if (!input.verdict.empty())
     opening.findings.push_back({{strong("Fit"), phrase(": " + input.verdict)}});
-  opening.findings.push_back(
-      {{strong("Compared with"), phrase(": " + compared_words(record) + ".")}});
+  opening.compared_with = plain(": " + compared_words(record) + ".");
   std::vector<std::string> wrong = input.warnings;
   for (const Status& status : record.statuses) wrong.push_back(status_text(status));
-  if (!wrong.empty())
-    opening.findings.push_back({{strong("Warnings"), phrase(": " + listed(wrong, 3) + ".")}});
+  if (!wrong.empty()) opening.wrong = plain(": " + listed(wrong, 3) + ".");
   opening.main_figure = input.figure.id;
   // The tests of the fit are a tile; small, their figure would be a few thin lines.
   for (const FigureBlock& figure : input.more_figures)

@@ -76,6 +76,15 @@ void add_agreement(const std::vector<SensorMethods>& sensors, Highlights& number
                            sensors.front().section()});
 }
 
+/// What the maps are compared with: always with the world, and with a paper if it prints errors.
+Paragraph compared_with(const std::vector<SensorMethods>& sensors) {
+  PublishedAgreement all;
+  for (const SensorMethods& sensor : sensors) all += agreement_of(sensor.methods);
+  return plain(all.compared + all.apart > 0
+                   ? ": the published errors, and the true positions of the landmarks."
+                   : ": the true positions of the landmarks, and each other.");
+}
+
 /// Which of the published orderings of methods hold here.
 void add_orderings(const Study& study, const std::vector<SensorMethods>& sensors,
                    Highlights& numbers) {
@@ -168,7 +177,7 @@ Paragraph what_is_wrong(const Study& study) {
     text += "Not the paper\u2019s protocol: " + smaller;
   if (text.empty()) text = "No map was made.";
   while (text.ends_with(' ')) text.pop_back();
-  return {{strong("Warnings"), phrase(": " + text)}};
+  return plain(": " + text);
 }
 
 /// The first figure or scene of the group; empty if there is none.
@@ -275,7 +284,9 @@ Opening study_opening(const Study& study, const StudyFigures& figures) {
   add_ends(counts, opening.numbers);
   if (counts.with_status + counts.unscored + counts.failed > 0)
     opening.warnings.push_back(endings_text(counts));
-  opening.findings = {what_was_done(study), what_is_wrong(study)};
+  opening.findings = {what_was_done(study)};
+  opening.wrong = what_is_wrong(study);
+  opening.compared_with = compared_with(sensors);
   ids.push_back(first_of(figures, "scenes"));
   if (!sensors.empty())
     ids.push_back(fmt::format("scene-manifold-{}", name(sensors.back().study->sensor.sensor)));

@@ -35,6 +35,14 @@ TEST(JoinedReport, IsBeyondThePapersOnlyOfTopics) {
   EXPECT_EQ(joined(parts).title, "Maps from what a robot observed");
 }
 
+TEST(JoinedReport, OfPapersHasTheLinesOfEachAfterItsName) {
+  std::vector<FolderReport> parts = studies(StudyOrigin::kPaper, 2);
+  for (FolderReport& part : parts) part.report.opening.compared_with = {{phrase(": theory.")}};
+  std::string text;
+  for (const Phrase& phrase : joined(parts).opening.compared_with.phrases) text += phrase.text;
+  EXPECT_EQ(text, ", Study 0: theory. Study 1: theory.");
+}
+
 TEST(JoinedReport, CountsStudiesThatAimAtSomethingAlone) {
   std::vector<FolderReport> parts = studies(StudyOrigin::kTopic, 9);
   for (std::size_t i = 0; i < 4; ++i) parts[i].reached_aim = i != 2;
@@ -49,9 +57,8 @@ TEST(JoinedReport, NamesTheStudiesThatHaveWarnings) {
   std::vector<FolderReport> parts = studies(StudyOrigin::kTopic, 4);
   // What a finding says to readers is not what is named.
   for (FolderReport& part : parts)
-    part.report.opening.findings = {
-        {{strong("Warnings"), phrase(": every map is as it should be.")}}};
-  const auto warnings = [&] { return joined(parts).opening.findings.at(1).phrases.at(1).text; };
+    part.report.opening.wrong = {{phrase(": every map is as it should be.")}};
+  const auto warnings = [&] { return joined(parts).opening.wrong.phrases.at(0).text; };
   EXPECT_EQ(warnings(), ": no run is missing.");
   parts[0].report.opening.warnings = {"no map of b: too few data", "one run is short"};
   parts[1].report.opening.warnings = {"2 of 9 maps have warnings"};

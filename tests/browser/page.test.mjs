@@ -20,6 +20,7 @@ test("the first screen has the verdict, the figure it rests on, what is wrong an
   assert.match(text, /published errors inside our 95\s% intervals\s+\d+ of \d+/);  // Is it good?
   assert.match(text, /best published: [\d.]+\sm/);  // Compared with what.
   assert.match(text, /Warnings: /);
+  assert.match(text, /Compared with: /);
   assert.match(await page.locator(".made").innerText(), /mapproof \S+ \(.+\)\. \d{4}-\d\d-\d\d/);
   // All of it, the images too, is seen without scrolling.
   const { y, height } = await opening.boundingBox();

@@ -65,7 +65,9 @@ Opening opening(Trap& text) {
           .figure_ids = {"drawn", "figure"},
           .standing = Standing{true, text(), {text(), text()}, {{{{text()}}}}, text()},
           .numbers = {{{text(), text(), text(), "provenance"}}},
-          .main_figure = "drawn"};
+          .main_figure = "drawn",
+          .wrong = {{{text()}}},
+          .compared_with = {{{text()}}}};
 }
 
 }  // namespace

@@ -237,16 +237,17 @@ TEST(ReportHtml, FoldsFindingsThatWouldPushTheFigureOffTheFirstScreen) {
 
 TEST(ReportHtml, FoldsLongFindingsButNeverWhatIsWrongOrComparedWith) {
   Report report;
-  report.opening.findings = {{{phrase("done")}},
-                             {{phrase("long " + std::string(600, 'x'))}},
-                             {{phrase("short")}},
-                             {{strong("Compared with"), phrase(": ground truth")}},
-                             {{strong("Warnings"), phrase(": something is wrong")}}};
+  report.opening.findings = {
+      {{phrase("done")}}, {{phrase("long " + std::string(600, 'x'))}}, {{phrase("short")}}};
+  report.opening.wrong = {{phrase(": something is wrong")}};
+  report.opening.compared_with = {{phrase(": ground truth")}};
   const std::string page = report_html(report, load_templates(), {});
   const std::size_t fold = page.find("<summary>2 more findings</summary>");
   ASSERT_NE(fold, std::string::npos);
   EXPECT_LT(page.find("something is wrong"), fold);
   EXPECT_LT(page.find(": ground truth"), fold);
+  EXPECT_LT(page.find("Warnings"), page.find("Compared with"));
+  EXPECT_LT(page.find("done"), page.find("Warnings"));
   EXPECT_GT(page.find("long xxx"), fold);
 }
 

@@ -232,11 +232,7 @@ TEST(MapReport, CountsTheWarningsOfItsFirstScreen) {
 
 TEST(MapReport, SaysWhatTheMapIsComparedWith) {
   MapRecord record = triangle();
-  const auto compared = [&] {
-    for (const Paragraph& finding : report_of(record).opening.findings)
-      if (finding.phrases[0].text == "Compared with") return finding.phrases[1].text;
-    return std::string();
-  };
+  const auto compared = [&] { return report_of(record).opening.compared_with.phrases.at(0).text; };
   EXPECT_EQ(compared(), ": the true positions of 2 landmarks that are not anchors.");
   record.anchors.clear();
   EXPECT_EQ(compared(), ": the true positions of 3 landmarks.");

@@ -60,11 +60,8 @@ TEST(ResultsReport, WarnsOfPathsOfWhichFewPosesAreAssociated) {
     const ResultsView view(study);
     const Report report = results_report(
         {.view = view, .comparisons = compare_methods(view), .figures = {}, .provenance = {}});
-    for (const Paragraph& finding : report.opening.findings)
-      for (const Phrase& phrase : finding.phrases)
-        if (phrase.text.find("only 75.1\u00A0% (m, a1) of the poses") != std::string::npos)
-          return true;
-    return false;
+    return report.opening.wrong.phrases.at(0).text.find("only 75.1\u00A0% (m, a1) of the poses") !=
+           std::string::npos;
   };
   EXPECT_TRUE(warns(75.14));
   EXPECT_FALSE(warns(90.0));
@@ -136,7 +133,7 @@ TEST(ResultsReport, OpensWithTheFigureOfItsHeadline) {
   EXPECT_TRUE(std::holds_alternative<Gallery>(over_all.sections.at(0).blocks.back()));
 }
 
-TEST(ResultsReport, SaysWhatTheMapsAreComparedWithAfterTheWarnings) {
+TEST(ResultsReport, SaysWhatTheMapsAreComparedWith) {
   const ResultsStudy study = study_of_two_quantities();
   const ResultsView view(study);
   const Report report = results_report({.view = view,
@@ -144,9 +141,21 @@ TEST(ResultsReport, SaysWhatTheMapsAreComparedWithAfterTheWarnings) {
                                         .figures = {},
                                         .provenance = {},
                                         .compared_with = "the map of all landmarks"});
-  const std::vector<Phrase>& phrases = report.opening.findings.at(1).phrases;
-  EXPECT_EQ(phrases.at(0).text, "Compared with");
-  EXPECT_EQ(phrases.at(1).text, ": the map of all landmarks.");
+  EXPECT_EQ(report.opening.compared_with.phrases.at(0).text, ": the map of all landmarks.");
+}
+
+TEST(ResultsReport, ComparesMethodsWithEachOtherWhereNothingElseIsStated) {
+  ResultsStudy study = study_of_two_quantities();
+  const auto compared = [&] {
+    const ResultsView view(study);
+    return results_report({.view = view, .comparisons = {}, .figures = {}, .provenance = {}})
+        .opening.compared_with.phrases.at(0)
+        .text;
+  };
+  EXPECT_EQ(compared(), ": each other, 2 methods over 5 runs.");
+  std::erase_if(study.results.rows, [](const auto& row) { return row.method != "m"; });
+  study.methods.resize(1);
+  EXPECT_EQ(compared(), ": nothing; the study has one method and no ground truth.");
 }
 
 TEST(ResultsReport, NamesTheWarningsOfRunsOnTheFirstScreen) {
@@ -158,7 +167,7 @@ TEST(ResultsReport, NamesTheWarningsOfRunsOnTheFirstScreen) {
   const ResultsView view(study);
   const Report report =
       results_report({.view = view, .comparisons = {}, .figures = {}, .provenance = {}});
-  EXPECT_EQ(report.opening.findings.at(0).phrases.at(1).text,
+  EXPECT_EQ(report.opening.wrong.phrases.at(0).text,
             ": 2 of 4 outcomes of methods have warnings: uncertified (2) and not Euclidean (1).");
   EXPECT_EQ(report.opening.numbers.items.back().label, "warning");
   EXPECT_EQ(
@@ -217,11 +226,7 @@ TEST(ResultsReport, WarnsOfPathsWithFarFewerPosesThanAnother) {
                                           .provenance = {},
                                           .poses = {{"few", few}, {"many", 785}}});
     const std::string warning = fmt::format("few has {} poses, many 785", few);
-    return std::ranges::any_of(report.opening.findings, [&](const Paragraph& finding) {
-      return std::ranges::any_of(finding.phrases, [&](const Phrase& phrase) {
-        return phrase.text.find(warning) != std::string::npos;
-      });
-    });
+    return report.opening.wrong.phrases.at(0).text.find(warning) != std::string::npos;
   };
   EXPECT_TRUE(warns(32));
   EXPECT_TRUE(warns(392));

@@ -378,7 +378,7 @@ TEST(StudyOpening, SaysWhatIsWrongWithAStudy) {
   Study study = synthetic_study(5, 5);
   study.runs.pop_back();
   const auto wrong = [&] {
-    return words(Section{"opening", "", {study_opening(study, {}).findings.back()}});
+    return "Warnings" + words(Section{"opening", "", {study_opening(study, {}).wrong}});
   };
   EXPECT_NE(wrong().find("Warnings: 24 of 25 runs are done."), std::string::npos) << wrong();
   EXPECT_NE(

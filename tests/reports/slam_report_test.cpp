@@ -214,6 +214,8 @@ std::string words(const Opening& opening) {
     all += fmt::format("{} {} ({}). ", number.value, number.label, number.detail);
   for (const Paragraph& finding : opening.findings)
     for (const Phrase& phrase : finding.phrases) all += phrase.text;
+  for (const Phrase& phrase : opening.wrong.phrases) all += " Warnings" + phrase.text;
+  for (const Phrase& phrase : opening.compared_with.phrases) all += " Compared with" + phrase.text;
   return all;
 }
 
@@ -295,6 +297,17 @@ TEST(SlamOpening, WithoutDrivesShowsHowErrorsConverge) {
   for (const char* absent : {"dead reckoning", "extended Kalman filter"})
     EXPECT_EQ(words(opening).find(absent), std::string::npos) << words(opening);
   EXPECT_NE(words(opening).find("Compared with: theory"), std::string::npos) << words(opening);
+}
+
+TEST(SlamOpening, ComparesADriveWithItsGroundTruthAndOtherMethodsOrWithNothing) {
+  SlamStudy study;
+  study.experiment.name = "slam";
+  study.runs = {test::sample_drive("mine", 100, 1)};
+  const auto compared = [&] { return slam_opening(study, {}).compared_with.phrases.at(0).text; };
+  EXPECT_TRUE(compared().starts_with(": the ground truth, dead reckoning")) << compared();
+  study.runs[0].log.ground_truth.reset();
+  study.runs[0].log.true_landmarks.reset();
+  EXPECT_EQ(compared(), ": nothing; the log has no ground truth.");
 }
 
 TEST(SlamOpening, CountsMissingLogsAsWarningsThatTheirSectionLists) {

@@ -127,6 +127,10 @@ void fields(Visitor& v, ResultsHead& head) {
   v.field("title", study.title, {.not_empty = true, .max_bytes = 1000});
   v.field("question", study.question,
           {.description = "What was asked and how it was tried.", .key = Key::kOptional});
+  v.field("compared_with", study.compared_with,
+          {.description = "What the results are judged against, within a sentence; each other "
+                          "where it is left out.",
+           .key = Key::kOptional});
   v.field("command", study.command,
           {.description = "The command that made the results.", .key = Key::kOptional});
   std::vector<Quantity> quantities;

@@ -334,7 +334,22 @@ const char* reason_of(const NightlyFacts& reference, const IndexFacts& facts) {
              : "";
 }
 
-/// What the last nightly run ran, and what it was compared with.
+/// What the last nightly run was compared with.
+Paragraph compared_with(const IndexFacts& facts, NightlyLinks& links) {
+  const NightlyFacts& this_run = facts.nightly_runs.back();
+  const auto reference =
+      std::ranges::find(facts.nightly_runs, this_run.reference.value_or(0), &NightlyFacts::number);
+  if (reference == facts.nightly_runs.end()) return {{phrase(": no earlier nightly run.")}};
+  Paragraph all{{phrase(": " + dated_name(*reference) + reason_of(*reference, facts) + ".")}};
+  if (const CommitRange range{*reference, this_run}; !range.url().empty()) {
+    all.phrases.push_back(phrase(" Commits since: "));
+    all.phrases.push_back(links.commits(range));
+    all.phrases.push_back(phrase("."));
+  }
+  return all;
+}
+
+/// What the last nightly run ran.
 std::vector<Paragraph> last_findings(const IndexFacts& facts, const NightlySummary& summary,
                                      NightlyLinks& links) {
   const NightlyFacts& this_run = facts.nightly_runs.back();
@@ -350,19 +365,6 @@ std::vector<Paragraph> last_findings(const IndexFacts& facts, const NightlySumma
       {{strong("Last"), phrase(fmt::format(": {}, of {}.", dated_name(this_run),
                                            studies.empty() ? "no study that is still there"
                                                            : listed(studies, 4)))}}};
-  const auto reference =
-      std::ranges::find(facts.nightly_runs, this_run.reference.value_or(0), &NightlyFacts::number);
-  findings.push_back(
-      {{strong("Compared with"),
-        phrase(": " + (reference == facts.nightly_runs.end()
-                           ? std::string("no earlier nightly run.")
-                           : dated_name(*reference) + reason_of(*reference, facts) + "."))}});
-  if (reference != facts.nightly_runs.end())
-    if (const CommitRange range{*reference, this_run}; !range.url().empty()) {
-      findings.back().phrases.push_back(phrase(" Commits since: "));
-      findings.back().phrases.push_back(links.commits(range));
-      findings.back().phrases.push_back(phrase("."));
-    }
   if (auto cause = ways_to_cause(facts, summary, links)) findings.push_back(std::move(*cause));
   if (const std::string values = measured(facts); !values.empty())
     findings.push_back({{strong("Measured"), phrase(":" + values)}});
@@ -428,6 +430,7 @@ HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& folders) {
   report.sections.push_back(last_section(facts, summary, links));
   page.figures = course(facts);
   report.opening.findings = last_findings(facts, summary, links);
+  report.opening.compared_with = compared_with(facts, links);
   show_first(page.figures, report.opening);
   if (!page.figures.empty()) {
     report.sections.push_back(

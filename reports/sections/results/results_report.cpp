@@ -503,7 +503,18 @@ Paragraph warnings_paragraph(const std::vector<std::string>& warnings) {
   std::string text = warnings.empty() ? "none; every result has a value." : "";
   for (const std::string& one : warnings) text += (text.empty() ? "" : "; ") + one;
   if (!text.ends_with('.')) text += '.';
-  return {{strong("Warnings"), phrase(": " + text)}};
+  return plain(": " + text);
+}
+
+/// What the results are judged against: as stated, else each other.
+Paragraph compared_with(const ResultsReportInput& input) {
+  const ResultsStudy& study = input.view.study();
+  if (!input.compared_with.empty()) return plain(": " + input.compared_with + ".");
+  const auto methods = static_cast<long long>(study.methods.size());
+  if (methods < 2) return plain(": nothing; the study has one method and no ground truth.");
+  return plain(fmt::format(
+      ": each other, {} over {}.", counted(methods, "method"),
+      counted(static_cast<long long>(input.view.runs()), study.runs.empty() ? "run" : "data set")));
 }
 
 /// Those that stand for a group in the opening: the first one, and others spread over the rest, so
@@ -565,11 +576,8 @@ Opening opening_of(const ResultsReportInput& input) {
       if (opening.findings.size() < kFewComparisons) opening.findings.push_back(plain(conclusion));
   opening.warnings = warnings_of(input);
   opening.numbers = numbers_of(input, opening.warnings);
-  if (!input.compared_with.empty())
-    opening.findings.insert(
-        opening.findings.begin(),
-        Paragraph{{strong("Compared with"), phrase(": " + input.compared_with + ".")}});
-  opening.findings.insert(opening.findings.begin(), warnings_paragraph(opening.warnings));
+  opening.wrong = warnings_paragraph(opening.warnings);
+  opening.compared_with = compared_with(input);
   choose_figures(figure_ids_of(input.view, input.figures), input.figures, opening,
                  input.headline_figures);
   return opening;

@@ -19,7 +19,7 @@ struct ResultsReportInput {
   /// What came out, a sentence each, by whoever knows what the study asked; the report says them in
   /// place of what the comparisons came to.
   std::vector<std::string> conclusions = {};
-  std::string compared_with = {};  ///< What the maps are judged against; empty: each other.
+  std::string compared_with = {};  ///< What the results are judged against; empty: each other.
   Highlights::Item headline = {};  ///< The first number of the first screen; no value: none.
   /// Ids of the figures that show this number: the first that is there is the first screen's.
   std::vector<std::string> headline_figures = {};

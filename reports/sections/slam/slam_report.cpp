@@ -462,7 +462,8 @@ std::string compared_words(const SlamStudy& study) {
   std::vector<std::string> others;
   for (const auto& [method, words] :
        {std::pair{SlamMethod::kDeadReckoning, "dead reckoning"},
-        std::pair{SlamMethod::kSpectral, "the paper\u2019s own spectral method"},
+        std::pair{SlamMethod::kSpectral, is_of_paper(study) ? "the paper\u2019s own spectral method"
+                                                            : "the spectral method"},
         std::pair{SlamMethod::kEkf, "an extended Kalman filter"}})
     if (std::ranges::any_of(study.runs, [&](const SlamRun& run) {
           return !run.simulated && record_of(run, method) != nullptr;
@@ -470,7 +471,25 @@ std::string compared_words(const SlamStudy& study) {
       others.emplace_back(words);
   if (!study.convergence.empty()) others.emplace_back("theory");
   if (study.histories) others.emplace_back("the mapping methods");
-  return others.empty() ? "nothing" : listed(others, others.size());
+  return listed(others, others.size());
+}
+
+/// Whether no run has a ground truth, be it of its path or of its landmarks.
+bool lacks_ground_truth(const SlamStudy& study) {
+  return std::ranges::none_of(study.runs, [](const SlamRun& run) {
+    return run.log.ground_truth || run.log.true_landmarks;
+  });
+}
+
+/// The same, and what is missing for more.
+Paragraph compared_with(const SlamStudy& study) {
+  const std::string others = compared_words(study);
+  if (is_of_paper(study))
+    return plain(fmt::format(": {}; the paper prints no errors of its methods.", others));
+  if (study.convergence.empty() && lacks_ground_truth(study))
+    return plain(fmt::format(": nothing; the {} no ground truth.",
+                             study.runs.size() == 1 ? "log has" : "logs have"));
+  return plain(fmt::format(": the ground truth{}.", others.empty() ? "" : ", " + others));
 }
 
 /// "Positions of landmarks and the path of a robot …: 2 recorded drives", and which estimates are
@@ -639,23 +658,15 @@ Opening slam_opening(const SlamStudy& study, const StudyFigures& figures) {
        details.empty() ? "none" : fmt::format("{}", fmt::join(details, "; ")), "slam-warnings",
        count > 0});
   opening.findings.push_back(what_was_done(study));
-  if (!missing.empty())
-    opening.findings.push_back(
-        {{strong("Data missing"),
-          phrase(fmt::format(": {}, and so is {}.", missing, lacks_words(study)))}});
-  if (is_of_paper(study))
-    opening.findings.push_back(
-        {{strong("Compared with"),
-          phrase(fmt::format(
-              ": {}. The paper prints no errors of its methods, so that no published number stands "
-              "beside ours.",
-              compared_words(study)))}});
+  opening.compared_with = compared_with(study);
   for (const SlamRun& run : study.runs)
     if (run.fit)
       opening.findings.push_back({{strong(title_of(run)), phrase(": " + verdict_text(*run.fit))}});
-  if (!warnings.empty())
-    opening.findings.push_back(
-        {{strong("Warnings"), phrase(fmt::format(": {}.", listed(warnings, 3)))}});
+  std::vector<std::string> wrong;
+  if (!missing.empty())
+    wrong.push_back(fmt::format("{}, and so is {}", missing, lacks_words(study)));
+  if (!warnings.empty()) wrong.push_back(listed(warnings, 3));
+  if (!wrong.empty()) opening.wrong = plain(fmt::format(": {}.", fmt::join(wrong, "; ")));
   std::vector<std::string> ids = {"fig-2b", "fig-2c"};
   for (const SlamRun& run : study.runs)
     if (!run.simulated) ids.push_back(path_figure_id(run));
