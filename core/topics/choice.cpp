@@ -8,6 +8,7 @@
 #include "core/base/random.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/choice/judged_maps.hpp"
+#include "core/experiment/scored_map.hpp"
 #include "core/score/map_score.hpp"
 #include "core/simulate/sensors.hpp"
 #include "core/topics/topics.hpp"
@@ -98,6 +99,12 @@ class Picks {
     return outcomes;
   }
 
+  /// What a criterion picks; null: there is no map.
+  const JudgedMap* pick(Criterion criterion) const {
+    const std::vector<std::size_t> order = ranked(anchored_, criterion);
+    return order.empty() ? nullptr : &anchored_[order.front()];
+  }
+
  private:
   /// @param shape_error  Empty: the criterion does not apply without anchors.
   TopicOutcome outcome(std::string_view method, double error,
@@ -123,6 +130,28 @@ class Picks {
   Errors shape_errors_;
 };
 
+/// The map that the mean rank picks.
+void show_pick(const Picks& picks, const Condition& at, const ObservationHistory& history,
+               Eigen::Index steps, const TopicTask& context, TopicPart& part) {
+  const JudgedMap* pick = picks.pick(Criterion::kCombined);
+  if (pick == nullptr) return;
+  const std::string method(info(Criterion::kCombined).name);
+  const std::string id = fmt::format("{}-{}", at.setup.get(), method);
+  part.maps.push_back({.id = id,
+                       .at = at,
+                       .method = method,
+                       .map = map_record({.id = id,
+                                          .origin = FromSensor{history.sensor, pick->setting},
+                                          .step = static_cast<int>(steps),
+                                          .names = landmark_names(history.landmarks()),
+                                          .ground_truth_m = context.world->landmarks_m,
+                                          .anchors = context.anchors},
+                                         scored_map(pick->embedding, context.world->landmarks_m,
+                                                    context.anchors, AffineFit::kLeastDistances)),
+                       .pairs = {},
+                       .uncertainty = {}});
+}
+
 TopicPart make_choice(const TopicTask& context) {
   TopicPart part;
   for (const auto& [id, sensor] : kChoiceSensors) {
@@ -139,10 +168,14 @@ TopicPart make_choice(const TopicTask& context) {
            .embedder = {},
            .replicates = static_cast<int>(number_option(context.experiment, "replicates")),
            .seed = context.seed});
-      for (TopicOutcome& outcome : Picks(judge, context).outcomes()) {
-        outcome.at = condition(id, {{.factor = std::string(kStepsFactor), .value = level}});
+      const Picks picks(judge, context);
+      const Condition at = condition(id, {{.factor = std::string(kStepsFactor), .value = level}});
+      for (TopicOutcome& outcome : picks.outcomes()) {
+        outcome.at = at;
         part.outcomes.push_back(std::move(outcome));
       }
+      if (context.with_maps && level == list_option(context.experiment, "observations").back())
+        show_pick(picks, at, history, steps, context, part);
       add_seconds(part, info(Criterion::kCombined).name, stopwatch.seconds());
     }
   }

@@ -82,8 +82,9 @@ class SubmapOutcomes {
  public:
   SubmapOutcomes(const TopicTask& context, TopicPart& part) : context_(context), part_(part) {}
 
+  /// @param shown  The map is kept, if maps are asked for.
   void add(const Condition& at, const ObservationHistory& history, const MethodSetting& setting,
-           const SubmapSetting& submaps) {
+           const SubmapSetting& submaps, bool shown) {
     const Stopwatch stopwatch;
     SubmapEmbedding made;
     if (submaps.whole)
@@ -109,14 +110,32 @@ class SubmapOutcomes {
     if (!submaps.whole && !std::isnan(made.median_residual))
       outcome.values["residual_percent"] = 100.0 * made.median_residual;
     part_.outcomes.push_back(std::move(outcome));
+    if (context_.with_maps && shown) show(at, method, history, setting, map);
   }
 
  private:
+  void show(const Condition& at, const std::string& method, const ObservationHistory& history,
+            const MethodSetting& setting, const ScoredMap& map) {
+    const std::string id = fmt::format("{}-{}", at.setup.get(), method);
+    part_.maps.push_back({.id = id,
+                          .at = at,
+                          .method = method,
+                          .map = map_record({.id = id,
+                                             .origin = FromSensor{history.sensor, setting},
+                                             .step = static_cast<int>(history.steps()),
+                                             .names = landmark_names(history.landmarks()),
+                                             .ground_truth_m = context_.world->landmarks_m,
+                                             .anchors = context_.anchors},
+                                            map),
+                          .pairs = {},
+                          .uncertainty = {}});
+  }
+
   const TopicTask& context_;
   TopicPart& part_;
 };
 
-/// All methods at one level of size or overlap.
+/// All methods at one level. Maps of the first method at the highest level of each setup are shown.
 void add_level(const TopicTask& context, const TopicSetup& setup, double level,
                const ObservationHistory& history, SubmapOutcomes& outcomes) {
   SubmapSetting submaps;
@@ -126,7 +145,9 @@ void add_level(const TopicTask& context, const TopicSetup& setup, double level,
   for (const bool whole : {true, false})
     for (const MethodSetting& setting : settings_of(context.experiment)) {
       submaps.whole = whole;
-      outcomes.add(condition_at(setup, level), history, setting, submaps);
+      outcomes.add(
+          condition_at(setup, level), history, setting, submaps,
+          level == levels_of(setup).back() && setting == settings_of(context.experiment).front());
     }
 }
 
@@ -149,10 +170,10 @@ TopicPart make_submaps(const TopicTask& context) {
                             .whole = true};
       submaps.parts.groups.size = static_cast<int>(number_option(context.experiment, "usual_size"));
       outcomes.add(condition_at(setup, level), incomplete, settings_of(context.experiment).front(),
-                   submaps);
+                   submaps, false);
       submaps.whole = false;
       outcomes.add(condition_at(setup, level), incomplete, settings_of(context.experiment).front(),
-                   submaps);
+                   submaps, false);
     }
   return part;
 }

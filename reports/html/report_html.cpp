@@ -164,12 +164,37 @@ const void* family_of(const Report& report, const FigureBlock& figure) {
   return &figure;
 }
 
-/// The first few figures of the opening, no two of one family. A small image is of a figure's first
-/// panel: none shows what the large figure or another small image shows. Where its short title is
-/// that of another, it has the whole one, which says in what they differ.
+/// What a figure looks like, in the order in which small images come.
+enum class Look { kSpace, kMap, kCurves };
+
+Look look_of(const FigureBlock& figure) {
+  return figure.value == "scene" ? Look::kSpace : figure.is_map ? Look::kMap : Look::kCurves;
+}
+
+/// A small image, and what it is called.
+struct Thumbnail {
+  const FigureBlock* figure;
+  std::string title;
+};
+
+/// The first of each look before any other.
+void each_look_once(std::vector<Thumbnail>& all) {
+  auto rest = all.begin();
+  for (const Look look : {Look::kSpace, Look::kMap, Look::kCurves}) {
+    const auto found = std::find_if(
+        rest, all.end(), [&](const Thumbnail& one) { return look_of(*one.figure) == look; });
+    if (found == all.end()) continue;
+    std::rotate(rest, found, found + 1);
+    ++rest;
+  }
+}
+
+/// A few figures of the opening, no two of one family. A small image is of a figure's first panel:
+/// none shows what the large figure or another small image shows. Where its short title is that of
+/// another, it has the whole one, which says in what they differ.
 list thumbnails(const Report& report) {
   constexpr std::size_t kMost = 6;
-  list shown;
+  std::vector<Thumbnail> all;
   std::set<std::string> titles;
   std::set<const void*> families;
   std::set<std::uint64_t> panels;
@@ -180,7 +205,7 @@ list thumbnails(const Report& report) {
   }
   for (const std::string& id : report.opening.figure_ids) {
     const FigureBlock* figure = figure_of(report, id);
-    if (figure == nullptr || figure == main_figure || shown.size() == kMost) continue;
+    if (figure == nullptr || figure == main_figure) continue;
     std::string title = short_title(figure->title);
     if (titles.contains(title)) title = figure->title;
     const void* family = family_of(report, *figure);
@@ -189,8 +214,14 @@ list thumbnails(const Report& report) {
     if (panel != 0 && !panels.insert(panel).second) continue;
     titles.insert(title);
     families.insert(family);
-    data link = figure_link(*figure);
-    link.set("title", title);
+    all.push_back({figure, std::move(title)});
+  }
+  each_look_once(all);
+  all.resize(std::min(all.size(), kMost));
+  list shown;
+  for (const Thumbnail& one : all) {
+    data link = figure_link(*one.figure);
+    link.set("title", one.title);
     shown.push_back(std::move(link));
   }
   return shown;

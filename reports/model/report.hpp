@@ -149,6 +149,7 @@ struct FigureBlock {
   std::vector<RegressedCurve> regressed_curves = {};  ///< Of its drawing, marked by pages alone.
   bool wide = false;  ///< It has many panels: a page gives it the whole width.
   bool tall = false;  ///< Its panels stand below each other.
+  bool is_map = false;  ///< Both axes of its first panel count in one scale.
   /// Per panel a number for what its marks show, equal for equal ones; 0: it has no marks.
   std::vector<std::uint64_t> shows = {};
 };

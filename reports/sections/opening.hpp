@@ -11,7 +11,7 @@
 
 namespace mapproof {
 
-/// As many figures an opening names: a page shows a few of them small, each of another kind.
+/// As many figures an opening names: a page shows a few of them small.
 inline constexpr std::size_t kMostCandidates = 18;
 
 /// The opening of a study's report: published errors inside our intervals, published orderings,

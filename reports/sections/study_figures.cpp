@@ -216,6 +216,7 @@ FigureBlock figure_block(const Figure& figure) {
   FigureBlock block{figure.id, figure.title, figure.caption, figure.alt, figure.record_ids};
   block.wide = figure.panels.size() >= kManyPanels;
   block.tall = figure.panels.size() > 1 && figure.columns == 1;
+  block.is_map = !figure.panels.empty() && figure.panels.front().equal_aspect;
   for (const Panel& panel : figure.panels) block.shows.push_back(number_of_marks(panel));
   if (!figure.id.starts_with(kForming)) return block;
   for (const Panel& panel : figure.panels) block.steps.push_back(panel.title);

@@ -110,6 +110,21 @@ TEST(ReportHtml, ShowsNoTwoSmallFiguresOfOneKindAndNamesEachInAnotherWay) {
   EXPECT_GT(page.find("1 figure is on page 2."), page.find("id=\"section-two\""));
 }
 
+TEST(ReportHtml, ShowsASmallFigureOfEachLookBeforeASecondOneOfAny) {
+  Report report{"r", "", {{"s", "S", {}}}, ""};
+  for (const char* id : {"curve-1", "curve-2", "map-1", "scene-1", "curve-3", "map-2"}) {
+    FigureBlock figure{id, id, "c", "a", {}};
+    figure.is_map = figure.id.starts_with("map");
+    if (figure.id.starts_with("scene")) figure.value = "scene";
+    report.opening.figure_ids.push_back(figure.id);
+    report.sections[0].blocks.emplace_back(std::move(figure));
+  }
+  const std::string page = report_html(report, load_templates(), {});
+  EXPECT_EQ(
+      all_matches(between(page, "<ul class=\"thumbnails\">", "</ul>"), "href=\"#figure-([^\"]*)\""),
+      (std::vector<std::string>{"scene-1", "map-1", "curve-1", "curve-2", "curve-3", "map-2"}));
+}
+
 /// A curve in a unit of which `scale` are one.
 ErrorPanel panel_of(const std::vector<double>& values, double scale = 1.0) {
   ErrorPanel panel{"", {.label = "steps"}, {{.label = "ISOMAP", .key = "isomap"}}, {}};

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -23,6 +24,18 @@ TEST(ChoiceTopic, HasNoRegretForTheBestAndTriesEverySeries) {
     if (outcome.method != "anchors") {
       EXPECT_GE(outcome.values.at("regret_shape_m"), 0.0) << outcome.method;
     }
+  }
+  // What the mean rank picks after all observations, of each sensor.
+  ASSERT_EQ(study.parts[0].maps.size(), 2U);
+  for (const TopicMap& map : study.parts[0].maps) {
+    EXPECT_EQ(map.method, "combined");
+    ASSERT_TRUE(map.map.score) << map.id;
+    const auto same =
+        std::ranges::find_if(study.parts[0].outcomes, [&](const TopicOutcome& outcome) {
+          return outcome.at == map.at && outcome.method == map.method;
+        });
+    ASSERT_NE(same, study.parts[0].outcomes.end());
+    EXPECT_NEAR(same->values.at("mpe_m"), map.map.score->mpe_m, 1e-3) << map.id;
   }
   const auto sentences = conclusions_of(study);
   ASSERT_EQ(sentences.size(), 2U);

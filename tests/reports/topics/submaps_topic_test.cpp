@@ -31,7 +31,18 @@ TEST(SubmapsTopic, ComparesPartsWithTheWholeAndReportsWhichIsWorse) {
                                             .anchors = room.anchors,
                                             .seed = 3,
                                             .data = {},
-                                            .with_maps = false}));
+                                            .with_maps = true}));
+  // Of the whole and of parts, at the highest level of each of three setups.
+  ASSERT_EQ(study.parts.front().maps.size(), 6U);
+  for (const TopicMap& map : study.parts.front().maps) {
+    EXPECT_TRUE(map.map.estimate.allFinite()) << map.id;
+    ASSERT_TRUE(map.map.score) << map.id;
+    const auto same =
+        std::ranges::find_if(study.parts.front().outcomes, [&](const TopicOutcome& outcome) {
+          return outcome.at == map.at && outcome.method == map.method;
+        });
+    EXPECT_EQ(same->values.at("mpe_m"), map.map.score->mpe_m) << map.id;
+  }
   // Its MOE allows for a reflection, and the label states it.
   EXPECT_EQ(study.design.quantities[1], known_quantity("moe_unmirrored_percent"));
   // Six method at each of four levels, and two more where data are missing.
