@@ -194,10 +194,12 @@ async function waitForImage(image) {
   } while (image.src !== src);
 }
 
+const kThumbnail_px = 200;  // What small images have of width, if they are to be looked at.
+
 // The small images stand beside the figure, below the words, as large as the figure's height leaves
 // room for; where that is too little, in a row below both, as far as the first screen shows it. Where
 // long sentences leave the first screen no room for all of them, the first ones are shown, a map in
-// space before all.
+// space before all: fewer, rather than smaller, as long as there is room for any.
 function placeThumbnails() {
   const list = document.querySelector(".thumbnails"), beside = document.querySelector(".glance > .beside");
   const figure = document.querySelector(".main-figure");
@@ -213,21 +215,25 @@ function placeThumbnails() {
   for (const element of [list, ...items]) element.hidden = false;
   beside.append(list);
   if (narrowPage.matches) return;
-  const count = items.length, kMostColumns = 3, kSlack_px = 4;
+  const count = items.length, kSlack_px = 4;
   const foot = figure?.getBoundingClientRect().bottom ?? 0;
-  for (let columns = 1; columns < kMostColumns && columns <= count; ++columns) {
+  const most = Math.max(1, Math.round(beside.clientWidth / kThumbnail_px));
+  for (let columns = 1; columns <= most && columns <= count; ++columns) {
     if (put(true, columns, foot + kSlack_px)) return;
   }
   const screenEnd = innerHeight - scrollY;
-  for (let columns = kMostColumns; columns <= 2 * kMostColumns; ++columns) {
-    if (columns >= count && put(false, columns, screenEnd)) return;
-  }
+  const inRow = Math.max(count, most + 1);
+  if (inRow * kThumbnail_px <= beside.parentElement.clientWidth && put(false, inRow, screenEnd)) return;
   const end = Math.max(foot, screenEnd);
-  if (put(true, kMostColumns, end)) return;
   const inSpace = items.find((item) => item.querySelector('a[href^="#figure-scene-"]'));
-  if (inSpace) list.prepend(inSpace);
-  for (const item of items) item.hidden = item.getBoundingClientRect().bottom > end;
-  list.hidden = items.every((item) => item.hidden);
+  for (const columns of [most, most + 1]) {
+    for (const item of items) item.hidden = false;
+    if (put(true, columns, end)) return;
+    if (inSpace) list.prepend(inSpace);
+    for (const item of items) item.hidden = item.getBoundingClientRect().bottom > end;
+    if (items.some((item) => !item.hidden)) return;
+  }
+  list.hidden = true;
 }
 
 // The small images are placed when those that show next to nothing are left out, and when the figure

@@ -80,9 +80,8 @@ void add_agreement(const std::vector<SensorMethods>& sensors, Highlights& number
 Paragraph compared_with(const std::vector<SensorMethods>& sensors) {
   PublishedAgreement all;
   for (const SensorMethods& sensor : sensors) all += agreement_of(sensor.methods);
-  return plain(all.compared + all.apart > 0
-                   ? ": the published errors, and the true positions of the landmarks."
-                   : ": the true positions of the landmarks, and each other.");
+  return plain(all.compared + all.apart > 0 ? ": the published errors, and the ground truth."
+                                            : ": the ground truth, and each other.");
 }
 
 /// Which of the published orderings of methods hold here.

@@ -80,6 +80,16 @@ test("a method that is chosen before the first screen is decoded leaves its smal
     await close();
   });
 
+test("small figures of the first screen are at least 200 px wide", async () => {
+  const { page, close } = await open({ viewport: { width: 1400, height: 900 } });
+  await openingPlaced(page);
+  const widths = await page.locator(".thumbnails img:visible").evaluateAll(
+    (images) => images.map((each) => each.getBoundingClientRect().width));
+  assert.ok(widths.length > 0);
+  assert.ok(widths.every((width) => width >= 200), `${widths}`);
+  await close();
+});
+
 test("long sentences take the room of the small figures, which come back with it", async () => {
   const { page, close } = await open({ viewport: { width: 1280, height: 800 } });
   await openingPlaced(page);

@@ -424,11 +424,8 @@ void add_slope(const SlamStudy& study, Highlights& numbers) {
   const ConvergenceCurve& curve = study.convergence.front();
   const double slope = convergence_slope(curve);
   if (!std::isfinite(slope)) return;
-  constexpr double kTheory = -0.5;
   numbers.items.push_back(
-      {fmt::format("power of the measurements: the model error falls {} than in theory",
-                   slope < kTheory ? "faster" : "more slowly"),
-       slope_words(slope),
+      {"power of the measurements in the model error", slope_words(slope),
        fmt::format("theory: \u22121/2; {}{}", slope_basis(curve), brief_variant_words(study)),
        kSlamSimulation});
 }
@@ -484,8 +481,7 @@ bool lacks_ground_truth(const SlamStudy& study) {
 /// The same, and what is missing for more.
 Paragraph compared_with(const SlamStudy& study) {
   const std::string others = compared_words(study);
-  if (is_of_paper(study))
-    return plain(fmt::format(": {}; the paper prints no errors of its methods.", others));
+  if (is_of_paper(study)) return plain(fmt::format(": {}; the paper prints no errors.", others));
   if (study.convergence.empty() && lacks_ground_truth(study))
     return plain(fmt::format(": nothing; the {} no ground truth.",
                              study.runs.size() == 1 ? "log has" : "logs have"));

@@ -161,12 +161,10 @@ std::string variant_words(const SlamStudy& study) {
 std::string brief_variant_words(const SlamStudy& study) {
   const ConvergenceCurve* plain_svd = plain_svd_of(study);
   if (plain_svd == nullptr) return "";
-  std::string text = "; with the variance of the noise taken off";
   const double slope = convergence_slope(*plain_svd);
-  if (std::isfinite(slope))
-    text += fmt::format(", without that, as in the paper, {}", slope_words(slope));
-  if (study.experiment.convergence) text += "; some worlds are drawn again";
-  return text;
+  if (!std::isfinite(slope)) return "";
+  return fmt::format("; as in the paper, with the noise\u2019s variance left in, {}",
+                     slope_words(slope));
 }
 
 }  // namespace mapproof

@@ -54,8 +54,7 @@ std::string slope_basis(const ConvergenceCurve& curve);
 /// worlds that were drawn again. Empty for other studies.
 std::string variant_words(const SlamStudy& study);
 
-/// The same for a tile: "; with the variance of the noise taken off, without that, as in the paper,
-/// −0.20; some worlds are drawn again".
+/// The same for a tile: "; as in the paper, with the noise’s variance left in, −0.20".
 std::string brief_variant_words(const SlamStudy& study);
 
 }  // namespace mapproof
