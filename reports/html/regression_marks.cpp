@@ -1,6 +1,8 @@
 #include "reports/html/regression_marks.hpp"
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -56,6 +58,14 @@ std::string ring_at(std::string_view marker) {
                      attribute(marker, "x"), attribute(marker, "y"));
 }
 
+/// Which panel that place is in: each ends with its frame.
+std::size_t panel_at(std::string_view svg, std::size_t place) {
+  constexpr std::string_view kFrame = "<g class=\"frame\"";
+  std::size_t panel = 0;
+  for (std::size_t at = svg.find(kFrame); at < place; at = svg.find(kFrame, at + 1)) ++panel;
+  return panel;
+}
+
 }  // namespace
 
 std::size_t mark_curve(const RegressedCurve& curve, std::string& svg) {
@@ -65,6 +75,7 @@ std::size_t mark_curve(const RegressedCurve& curve, std::string& svg) {
   const std::string of_panel = fmt::format("-c{})", curve.panel);  // Its frame cuts the line.
   std::vector<std::string> wanted;
   for (const double x : curve.at) wanted.push_back(marker_x(x));
+  std::set<std::string> ringed;  // Single runs at the same x get none.
   std::size_t count = 0;
   for (std::size_t at = svg.find(of_curve); at != std::string::npos;
        at = svg.find(of_curve, at + 1)) {
@@ -72,6 +83,18 @@ std::size_t mark_curve(const RegressedCurve& curve, std::string& svg) {
     if (begin == std::string::npos || end == std::string::npos) break;
     const std::string_view group = std::string_view(svg).substr(begin, end - begin);
     const std::string_view tag = group.substr(0, group.find('>'));
+    const auto is_wanted = [&wanted](std::string_view x) {
+      return wanted.empty() || std::ranges::find(wanted, x) != wanted.end();
+    };
+    if (tag.starts_with("<use ")) {  // A mean above the frame, to which no line leads.
+      const std::string_view x = attribute(tag, "data-x");
+      if (panel_at(svg, begin) != curve.panel || !is_wanted(x) || !ringed.emplace(x).second)
+        continue;
+      ring = ring_id(tag);
+      ++count;
+      svg.insert(svg.find('>', begin) + 1, "\n" + ring_at(tag));
+      continue;
+    }
     // Of one item alone, such as a line without a marker, no group is made.
     if (!tag.starts_with("<g ") || !attribute(group, "clip-path").ends_with(of_panel)) continue;
     const std::vector<std::string_view> x = x_values(attribute(tag, "data-points"));
@@ -80,7 +103,8 @@ std::size_t mark_curve(const RegressedCurve& curve, std::string& svg) {
     constexpr std::string_view kMarker = "<use class=\"marker\"";
     for (std::size_t use = group.find(kMarker); use != std::string_view::npos && point < x.size();
          use = group.find(kMarker, use + 1), ++point) {
-      if (!wanted.empty() && std::ranges::find(wanted, x[point]) == wanted.end()) continue;
+      ringed.emplace(x[point]);
+      if (!is_wanted(x[point])) continue;
       const std::string_view marker = group.substr(use, group.find('>', use) - use);
       ring = ring_id(marker);
       rings += ring_at(marker);

@@ -244,7 +244,7 @@ TEST(HistoryPages, ShowWhatTheFirstNightlyRunMeasuredInsteadOfATrend) {
                                       "Peak memory 80.0\u00a0MiB in nightly run 3."}));
   const HistoryPage index = index_page({.nightly_runs = {{.number = 3}}, .trends = {trend}}, {});
   EXPECT_EQ(index.report.opening.main_figure, figures[0].id);
-  EXPECT_EQ(index.report.opening.findings.at(2).phrases.front().text, "Measured");
+  EXPECT_EQ(index.report.opening.findings.at(1).phrases.front().text, "Measured");
   const HistoryPage page = trend_page(trend, {}, false, {});
   EXPECT_NO_THROW(check(page.report));
   EXPECT_EQ(page.report.opening.main_figure, figures[0].id);
@@ -301,7 +301,7 @@ TEST(HistoryPages, LinkTheCommitsSinceTheReferenceRun) {
   const HistoryPage index =
       index_page({.nightly_runs = {before, last}, .trends = {best_got_worse()}}, {});
   EXPECT_EQ(index.link_words.at("https://host/a/b/compare/abc1...abd2"), "abc1..abd2");
-  EXPECT_EQ(index.report.opening.findings[1].phrases[3].emphasis, Emphasis::kUrl);
+  EXPECT_EQ(index.report.opening.findings[0].phrases[3].emphasis, Emphasis::kUrl);
 }
 
 TEST(HistoryRules, JudgeOneOfTheTwoOrientationErrors) {

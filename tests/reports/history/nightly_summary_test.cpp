@@ -334,7 +334,7 @@ TEST(HistoryPages, BeginWithWhatGotWorseWhereItBeganAndALinePerStudy) {
   const auto& comparing = std::get<Paragraph>(index.report.sections.back().blocks.back());
   EXPECT_EQ(comparing.phrases.at(1).text, "mapproof history 'my history' --compare 2 3");
   EXPECT_TRUE(index.link_words.contains("compare/0001-0002/mine.html"));
-  const std::vector<Phrase>& cause = index.report.opening.findings.at(2).phrases;
+  const std::vector<Phrase>& cause = index.report.opening.findings.at(1).phrases;
   ASSERT_EQ(cause.size(), 5U) << "one diff of both findings";
   EXPECT_EQ(cause[0].text, "What changed");
   EXPECT_EQ(cause[2].text, "compare/0001-0002/mine.html");
@@ -393,7 +393,7 @@ TEST(HistoryPages, ShowASearchOnTheFirstScreenOnlyWhereItCanBeRun) {
       index.report.opening.standing->sentences.front(),
       "mine: bearing, ISOMAP: MPE +20.0\u00a0% (K = 6) (median 0.100 → 0.120\u00a0m), between "
       "nightly runs 1 and 2: git log aaaaaaaaa..bbbbbbbbb.");
-  EXPECT_EQ(index.report.opening.findings.at(2).phrases.size(), 3U) << "the diff alone";
+  EXPECT_EQ(index.report.opening.findings.at(1).phrases.size(), 3U) << "the diff alone";
   const auto& found = std::get<FindingBlock>(index.report.sections.front().blocks.front());
   EXPECT_NE(found.command.find("(BUILD)"), std::string::npos);
   EXPECT_NE(found.details.back().find("in place of BUILD"), std::string::npos);
