@@ -1,5 +1,6 @@
 #include "reports/sections/results/results_tables.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <variant>
 
@@ -165,6 +166,30 @@ TEST(ResultsTables, LabelledRunsHaveATableEach) {
   EXPECT_EQ(tables[0].caption, "First set: s");
   EXPECT_EQ(tables[0].rows.size(), 2U);
   EXPECT_EQ(tables[1].rows.size(), 1U);
+}
+
+TEST(ResultsTables, OfOneNumberIsLeftToTheSentenceThatSaysIt) {
+  Rows rows;
+  for (const double noise : {0.1, 0.2})
+    for (const char* method : {"m", "n"})
+      for (const char* run : {"a", "b"}) rows.add(method, run, 3.0 + noise, {{"noise", noise}});
+  ResultsStudy study = rows.study();
+  for (Result row : std::vector(study.results.rows)) {
+    row.quantity = "moe_percent";
+    row.value = 100.0;
+    study.results.rows.push_back(std::move(row));
+  }
+  study.quantities.push_back("moe_percent");
+  sort_results(study.results);
+  const auto tables_of = [&] {
+    const ResultsView view(study);
+    std::vector<std::string> all;
+    for (const Table& table : results_tables(view, view.blocks()[0])) all.push_back(table.id);
+    return all;
+  };
+  EXPECT_EQ(tables_of().size(), 1U) << "a table of 100 | 100 to 100";
+  std::ranges::find(study.results.rows, "moe_percent", &Result::quantity)->value = 99.0;
+  EXPECT_EQ(tables_of().size(), 2U);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "core/base/text/words.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/results/results_conventions.hpp"
+#include "reports/sections/results/results_figures.hpp"
 #include "reports/sections/tables/cells.hpp"
 #include "reports/sections/wording.hpp"
 
@@ -309,6 +310,25 @@ std::optional<Table> run_table(const ResultsView& view, const ResultsBlock& bloc
 
 }  // namespace
 
+namespace {
+
+/// Whether a table has one number in every cell but its labels.
+bool has_one_number(const Table& table) {
+  std::set<double> numbers;
+  for (const Row& row : table.rows)
+    for (std::size_t i = 1; i < row.cells.size(); ++i) {
+      if (const auto* number = std::get_if<NumberCell>(&row.cells[i]))
+        numbers.insert(number->value);
+      else if (const auto* interval = std::get_if<IntervalCell>(&row.cells[i]))
+        numbers.insert({interval->low, interval->high});
+      else
+        return false;
+    }
+  return numbers.size() == 1;
+}
+
+}  // namespace
+
 std::vector<Table> results_tables(const ResultsView& view, const ResultsBlock& block) {
   if (!view.study().runs.empty()) {
     std::vector<Table> of_runs;
@@ -318,8 +338,14 @@ std::vector<Table> results_tables(const ResultsView& view, const ResultsBlock& b
   }
   if (block.factor.empty()) return {single_table(view, block)};
   std::vector<Table> tables;
-  for (const Quantity* quantity : view.quantities(block))
-    tables.push_back(level_table(view, block, *quantity));
+  // A sentence says what is one number, in place of a figure; the notes are those of the others.
+  std::vector<Table> said;
+  for (const Quantity* quantity : view.quantities(block)) {
+    Table table = level_table(view, block, *quantity);
+    const bool is_said = has_one_number(table) && !why_no_figure(view, block, *quantity).empty();
+    (is_said ? said : tables).push_back(std::move(table));
+  }
+  if (tables.empty()) return said;
   return tables;
 }
 
