@@ -190,7 +190,7 @@ std::string compared_words(const EvaluateArguments& arguments,
   const std::string files =
       ground_truths.size() == 1
           ? "the ground truth " + ground_truths.front().filename().string()
-          : fmt::format("{} ground truths, each estimate with its own", ground_truths.size());
+          : fmt::format("the ground truth of each of {} sequences", ground_truths.size());
   return fmt::format("{}; each estimate is {}", files,
                      std::ranges::find(kWords, arguments.alignment, [](const auto& words) {
                        return std::string_view(words.first);

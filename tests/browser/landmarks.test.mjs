@@ -75,6 +75,23 @@ test("n and p step through the landmarks and announce them, Escape ends it", asy
   await close();
 });
 
+test("a tip that cuts a long name says so", async () => {
+  const { page, close } = await open();
+  const shown = await figure(page, "map-bearing-isomap");
+  await shown.locator(".drawing").focus();
+  await page.keyboard.press("n");
+  const name = shown.locator(".tip bdi");
+  const { lines, clamp, isCut } = await name.evaluate((bdi) => {
+    bdi.textContent = "a long name of a landmark ".repeat(20);
+    const { lineHeight, webkitLineClamp } = getComputedStyle(bdi);
+    return { lines: bdi.clientHeight / parseFloat(lineHeight), clamp: webkitLineClamp,
+      isCut: bdi.scrollHeight > bdi.clientHeight + 1 };
+  });
+  assert.ok(isCut && lines < 3.2, `${lines}`);
+  assert.equal(clamp, "3");
+  await close();
+});
+
 test("the tip of a chosen landmark is there while the landmark is in view", async () => {
   const { page, close } = await open();
   const shown = await figure(page, "map-bearing-isomap");

@@ -286,7 +286,9 @@ void add_best_values(const ResultsReportInput& input, Highlights& numbers) {
     // Means of tables are over all runs of each method.
     if (!comparison.has_all_runs) note += "; over the " + counted(comparison.runs, "common run");
     numbers.items.push_back(
-        {fmt::format("{} {}, {}", is_one ? "best" : "best mean of", label, where_of(comparison)),
+        {fmt::format("{} {}, {}", is_one ? "best" : "best mean of", in_sentence(label),
+                     in_sentence(comparison.block->title) +
+                         where_of(comparison).substr(comparison.block->title.size())),
          quantity_text(best.mean, comparison.quantity->unit), std::move(note),
          comparison.block->id});
   }

@@ -9,6 +9,7 @@
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/model/format.hpp"
+#include "reports/sections/results/results_conventions.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/topics/topic_text.hpp"
 
@@ -62,7 +63,7 @@ std::string choice_sentence(const TopicStudy& study, const char* quantity, const
       "{}, over all sensors and numbers of steps, the criterion with the lowest mean regret is {}: "
       "its pick is {} worse than the best map on average; a fixed method is {} worse and a random "
       "pick {}{}.",
-      when, best.label, regret_text(best.regret_m),
+      when, in_sentence(best.label), regret_text(best.regret_m),
       regret_text(mean_over_all(study, kFixedMethod, quantity)),
       regret_text(mean_over_all(study, kRandomPick, quantity)),
       has_few_layouts(study) ? fmt::format("; too few runs to rank the criteria, in {}",
@@ -82,7 +83,7 @@ TopicHeadline choice_headline(const TopicStudy& study) {
   TopicHeadline headline{
       .value = value,
       .label = fmt::format("{} the best map: the map that a criterion picks", words),
-      .detail = "by " + best.label,
+      .detail = "by " + in_sentence(best.label),
       .quantity = "regret_m"};
   const auto difference =
       topic_difference(study, all_conditions(study), best.id, kFixedMethod, "regret_m");

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -39,6 +40,9 @@ TEST(ChoiceTopic, HasNoRegretForTheBestAndTriesEverySeries) {
   }
   const auto sentences = conclusions_of(study);
   ASSERT_EQ(sentences.size(), 2U);
+  EXPECT_NE(sentences[0].find("mean regret is "), std::string::npos) << sentences[0];
+  const std::string picked_by = kChoiceWords.headline(study).detail;
+  EXPECT_TRUE(picked_by.starts_with("by ") && std::islower(picked_by[3])) << picked_by;
   EXPECT_EQ(sentences[0].find("nan"), std::string::npos) << sentences[0];
   EXPECT_TRUE(sentences[0].ends_with("; too few runs to rank the criteria, in 1 layout."))
       << sentences[0];
