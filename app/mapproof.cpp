@@ -56,9 +56,8 @@ void add_common_options(CLI::App& app, Common& common) {
   app.add_flag("-v,--verbose", common.verbose, "Print details")->excludes(quiet);
   if (std::ranges::find(kWithProvenance, app.get_name()) != kWithProvenance.end())
     app.add_option("--provenance", common.provenance,
-                   "reduced: records and pages name no user, host or home folder, and of other "
-                   "paths the last "
-                   "name; full: all of them")
+                   "reduced: records and pages name no user, host or home folder, and of paths in "
+                   "commands the last name; full: all of them")
         ->transform(one_of({"reduced", "full"}))
         ->capture_default_str();
 }
