@@ -472,7 +472,9 @@ class Planner {
     std::error_code error;
     if (!fs::is_regular_file(current_ / relative, error)) return;
     if (same_bytes(current_ / relative, baseline_ / relative)) return;
-    if (!same_bytes(current_ / kStudyFile, baseline_ / kStudyFile))
+    // A file that cannot be read is not another.
+    if (!fs::is_regular_file(baseline_ / kStudyFile, error) ||
+        read_file(current_ / kStudyFile) != read_file(baseline_ / kStudyFile))
       throw InvalidInput(id + ": its records are of another experiment or solver than the " +
                          "baseline's; approve records with it, or --all");
     add(relative);
