@@ -47,7 +47,7 @@ function makeChips() {
   }
 }
 
-// The order in which the page came is by verdict. The places of the items stay, folded ones too.
+// The order in which the page came is by verdict. Items keep their places, folded ones too.
 function makeOrder() {
   const places = new Map(items.map((item, place) => [item, place]));
   const byPlace = (a, b) => places.get(a) - places.get(b);

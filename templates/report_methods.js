@@ -44,7 +44,7 @@ function labelOfMark(mark) {
   return methods.get(key?.[1]) ?? nameOf(method);
 }
 
-// The method that words name; a diagram of ranks has a method's mean rank behind it, "ISOMAP 2.17".
+// The method that words name; a diagram of ranks has a method's mean rank behind it, "EKF 2.17".
 function labelOfWords(words, ranked) {
   const mark = ranked.find(({ dataset: { method, rank } }) =>
     words.startsWith(`${method} `) && Math.abs(words.slice(method.length) - rank) < .01);

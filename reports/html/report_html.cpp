@@ -164,11 +164,12 @@ const void* family_of(const Report& report, const FigureBlock& figure) {
   return &figure;
 }
 
-/// What a figure looks like, in the order in which small images come.
-enum class Look { kSpace, kMap, kCurves };
+/// The kinds of figures, in the order in which small images come.
+enum class ImageKind { kSpace, kMap, kCurves };
 
-Look look_of(const FigureBlock& figure) {
-  return figure.value == "scene" ? Look::kSpace : figure.is_map ? Look::kMap : Look::kCurves;
+ImageKind image_kind_of(const FigureBlock& figure) {
+  if (figure.value == "scene") return ImageKind::kSpace;
+  return figure.is_map ? ImageKind::kMap : ImageKind::kCurves;
 }
 
 /// A small image, and what it is called.
@@ -177,12 +178,12 @@ struct Thumbnail {
   std::string title;
 };
 
-/// The first of each look before any other.
-void each_look_once(std::vector<Thumbnail>& all) {
+/// The first of each kind before any other.
+void each_kind_once(std::vector<Thumbnail>& all) {
   auto rest = all.begin();
-  for (const Look look : {Look::kSpace, Look::kMap, Look::kCurves}) {
+  for (const ImageKind kind : {ImageKind::kSpace, ImageKind::kMap, ImageKind::kCurves}) {
     const auto found = std::find_if(
-        rest, all.end(), [&](const Thumbnail& one) { return look_of(*one.figure) == look; });
+        rest, all.end(), [&](const Thumbnail& one) { return image_kind_of(*one.figure) == kind; });
     if (found == all.end()) continue;
     std::rotate(rest, found, found + 1);
     ++rest;
@@ -216,7 +217,7 @@ list thumbnails(const Report& report) {
     families.insert(family);
     all.push_back({figure, std::move(title)});
   }
-  each_look_once(all);
+  each_kind_once(all);
   all.resize(std::min(all.size(), kMost));
   list shown;
   for (const Thumbnail& one : all) {

@@ -73,7 +73,7 @@ TEST_F(Trajectories, BecomeAStudyThatEveryCommandTakes) {
   expect_same(before, contents(at("out")));
   const std::string page = read_file(at("out") + "/report.html");
   EXPECT_NE(page.find("sequences; each estimate is as it came."), std::string::npos);
-  EXPECT_NE(page.find("best ATE (RMSE), absolute errors"), std::string::npos);
+  EXPECT_NE(page.find("best mean of ATE (RMSE), absolute errors"), std::string::npos);
   ASSERT_EQ(evaluate("out").exit_code, 0);
   EXPECT_EQ(page, read_file(at("out") + "/report.html"));
   ASSERT_EQ(evaluate("again").exit_code, 0);

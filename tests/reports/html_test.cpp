@@ -110,7 +110,7 @@ TEST(ReportHtml, ShowsNoTwoSmallFiguresOfOneKindAndNamesEachInAnotherWay) {
   EXPECT_GT(page.find("1 figure is on page 2."), page.find("id=\"section-two\""));
 }
 
-TEST(ReportHtml, ShowsASmallFigureOfEachLookBeforeASecondOneOfAny) {
+TEST(ReportHtml, ShowsASmallFigureOfEachKindBeforeASecondOneOfAny) {
   Report report{"r", "", {{"s", "S", {}}}, ""};
   for (const char* id : {"curve-1", "curve-2", "map-1", "scene-1", "curve-3", "map-2"}) {
     FigureBlock figure{id, id, "c", "a", {}};
@@ -311,7 +311,7 @@ TEST(ReportHtml, ListsTheTablesAndFiguresOfASectionBelowItInItsContents) {
   EXPECT_EQ(all_matches(contents, "href=\"#([^\"]*)\""),
             (std::vector<std::string>{"section-bearing", "figure-a", "figure-b", "table-errors",
                                       "section-map", "section-provenance"}))
-      << "a part named as its section, or no part, is no second level";
+      << "neither a part named as its section nor a missing one makes a second level";
   EXPECT_EQ(all_matches(contents, "<bdi>([^<]*)</bdi>"),
             (std::vector<std::string>{"First map", "2 more figures: other maps",
                                       "MPE [m], by observations"}));

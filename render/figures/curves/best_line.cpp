@@ -256,12 +256,6 @@ std::string x_text(const LineAxis& axis, double x, const LineQuantity& quantity)
   return is_clear ? value : fmt::format("{}\u00A0=\u00A0{}", axis.name, value);
 }
 
-LineAxis line_axis(const std::string& label) {
-  const std::size_t unit = label.find(" [");
-  if (unit == std::string::npos || label.back() != ']') return {label};
-  return {label.substr(0, unit), label.substr(unit + 2, label.size() - unit - 3)};
-}
-
 std::string name_alone(const std::string& label) {
   return without_parameters(short_method_name(label));
 }

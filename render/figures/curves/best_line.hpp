@@ -20,15 +20,6 @@ struct LineQuantity {
   bool has_diverged(double value) const;
 };
 
-/// What x is.
-struct LineAxis {
-  std::string name;
-  std::string unit = {};
-};
-
-/// Of the label of an axis: "noise of bearings [°]".
-LineAxis line_axis(const std::string& label);
-
 /// An x without its name where the unit says what it is: "10°", but "K = 7" and, of a quantity in
 /// the same unit, "noise = 10 %".
 std::string x_text(const LineAxis& axis, double x, const LineQuantity& quantity);

@@ -14,7 +14,6 @@
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/base/span.hpp"
-#include "render/figures/curves/best_line.hpp"
 #include "render/plot/layers.hpp"
 
 namespace mapproof {
@@ -305,6 +304,12 @@ class Builder {
 };
 
 }  // namespace
+
+LineAxis line_axis(const std::string& label) {
+  const std::size_t unit = label.find(" [");
+  if (unit == std::string::npos || label.back() != ']') return {label};
+  return {label.substr(0, unit), label.substr(unit + 2, label.size() - unit - 3)};
+}
 
 SeriesStyle series_style(std::size_t i) {
   // After ten the colours come again, each time with the next dash and marker: both come again

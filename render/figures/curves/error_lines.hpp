@@ -11,6 +11,15 @@
 
 namespace mapproof {
 
+/// What x is.
+struct LineAxis {
+  std::string name;
+  std::string unit = {};
+};
+
+/// Of the label of an axis: "noise of bearings [°]".
+LineAxis line_axis(const std::string& label);
+
 /// The style of the i-th curve of a figure: colour, dash and marker; no two of the first 350 are
 /// alike, and no two of the first ten, or of any ten, have one colour.
 struct SeriesStyle {
