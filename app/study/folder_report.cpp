@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "app/command_line.hpp"
+#include "app/disclosure.hpp"
 #include "app/study/embedded_experiments.hpp"
 #include "app/study/study_outputs.hpp"
 #include "core/base/errors.hpp"
@@ -58,7 +59,8 @@ Section contents_section(const std::vector<FolderReport>& parts) {
 constexpr const char* kReportFile = "report.html";
 
 std::string figure_command(const fs::path& folder) {
-  return quoted_command({"mapproof", "render", folder.string(), "--figure"});
+  return quoted_command(
+      {"mapproof", "render", Disclosure(false).words({folder.string()}).front(), "--figure"});
 }
 
 constexpr std::size_t kMostNumbers = 6, kMostFindings = 6;
