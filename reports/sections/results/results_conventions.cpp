@@ -21,6 +21,8 @@ std::string id_below(const std::string& block, std::string what) {
   return bounded_id(block + "-" + what, kLongestId);
 }
 
+std::string summary_id(const std::string& study) { return study + "-summary"; }
+
 std::string key_of(std::size_t line) { return fmt::format("line-{}", line + 1); }
 
 std::string record_of(const ResultsBlock& block) { return block.conditions.front().setup; }

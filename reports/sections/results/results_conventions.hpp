@@ -15,6 +15,9 @@ inline constexpr std::size_t kMostPanels = 4;
 /// "study-setup-mpe-m": the id of a figure or table in a block, at most kLongestId long.
 std::string id_below(const std::string& block, std::string what);
 
+/// The id of the section that begins a study's report, and of the group of figures in it.
+std::string summary_id(const std::string& study);
+
 /// Of the line's marks.
 std::string key_of(std::size_t line);
 
@@ -23,9 +26,8 @@ std::string record_of(const ResultsBlock& block);
 
 /// A value in words with its unit, without the unit where this is a power of ten.
 /// @param unit          Of the value: the quantity's, or one that a figure scales it to.
-/// @param great_errors  Whether an error in m beyond kGreatestError_m is of a map that diverged,
-/// and
-///                      is "over 1 km": see ResultsView::has_great_errors().
+/// @param great_errors  Whether an error in m beyond kGreatestError_m is of a map that
+///                      diverged, and is "over 1 km": see ResultsView::has_great_errors().
 std::string value_words(double value, const std::string& unit, bool great_errors);
 
 /// Whether the values need a logarithmic axis.

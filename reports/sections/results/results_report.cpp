@@ -214,8 +214,6 @@ std::vector<Section> sections_of(const ResultsReportInput& input, bool has_openi
 
 }  // namespace
 
-std::string summary_id(const std::string& study) { return study + "-summary"; }
-
 std::vector<Block> given_provenance(const ResultsView& view, const std::string& command) {
   const ResultsStudy& study = view.study();
   std::vector<Block> blocks;

@@ -38,9 +38,6 @@ struct ResultsReportInput {
 /// @param command  That writes the report again.
 std::vector<Block> given_provenance(const ResultsView& view, const std::string& command);
 
-/// The id of the section that begins a study's report, and of the group of figures in it.
-std::string summary_id(const std::string& study);
-
 /// The report of a study that is a table of results: what was asked and what came out, then one
 /// section per block with its figures, tables and comparisons, the maps and paths, what it took,
 /// and where the numbers come from.

@@ -8,7 +8,6 @@
 #include "core/model/topic_study.hpp"
 #include "core/results/results_study.hpp"
 #include "reports/model/report.hpp"
-#include "reports/sections/results/results_report.hpp"
 #include "reports/sections/study_figures.hpp"
 #include "reports/sections/topics/topic_text.hpp"
 
