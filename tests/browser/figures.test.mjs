@@ -25,8 +25,9 @@ test("drawings are inserted when the reader comes near, and all of them for pape
   assert.ok(await page.locator(".drawing > svg").count() < 10);
   await figure(page, kMap);
   await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
-  // Paper may have a drawing in several parts.
-  assert.equal(await page.locator(".drawing:has(> svg)").count(), held);
+  assert.equal(await page.locator(".drawing > noscript").count(), 0);
+  // Paper has some drawings in several parts.
+  assert.ok(await page.locator(".drawing > svg").count() >= held);
   await close();
 });
 
