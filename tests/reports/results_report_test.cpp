@@ -1,4 +1,5 @@
 #include "reports/sections/results/results_report.hpp"
+#include "reports/sections/results/results_conventions.hpp"
 
 #include <algorithm>
 

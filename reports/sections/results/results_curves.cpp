@@ -427,6 +427,13 @@ void add_aim(Panel& panel, double aim, const std::vector<ErrorLine>& lines) {
   limits = {std::min(limits.low, aim - margin), std::max(limits.high, aim + margin)};
 }
 
+/// From which greatest over least mean the y axis is logarithmic. Shares never have such an axis,
+/// nor has a difference from the best, which is often 0.
+double log_from(const Quantity& quantity) {
+  const bool is_linear = quantity.unit == "%" || quantity.id.starts_with("regret_");
+  return is_linear ? HUGE_VAL : LevelCurveSpec{}.log_from;
+}
+
 /// Which method is best at most of the points of several panels, see best_of_points(). Empty of too
 /// few runs, and of a quantity that has no better side.
 /// @param joined  Labels of lines that are several.
@@ -483,7 +490,7 @@ std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& 
     finding = course_of(curves.lines, quantity, shown.unit, spec.great_errors, spec.x_label,
                         view.has_groups_for_intervals() ? kNoneIsBest : kTooFewRuns);
   spec.title = fmt::format("{}: {}", block.title, finding.empty() ? quantity.label : finding);
-  if (quantity.unit == "%") spec.log_from = HUGE_VAL;
+  spec.log_from = log_from(quantity);
   const std::optional<Note> of_intervals = intervals_note(view, curves);
   spec.methods = drawn(std::move(curves));
   Figure figure = level_curve_figure(spec);
@@ -508,8 +515,7 @@ std::optional<Figure> overview_figure(const ResultsView& view, const ResultsOver
   spec.great_errors = view.has_great_errors(quantity);
   spec.has_runs = view.runs() > 1;
   spec.record_ids = {record_of(*overview.blocks.front())};
-  // A difference from the best is often 0, which no logarithmic axis has.
-  if (quantity.id.starts_with("regret_")) spec.log_from = HUGE_VAL;
+  spec.log_from = log_from(quantity);
   std::vector<std::string> joined;
   std::vector<std::vector<ErrorLine>> judged;
   for (std::size_t i = 0; i < overview.blocks.size(); ++i) {

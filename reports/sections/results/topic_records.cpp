@@ -154,6 +154,7 @@ FigureGroup topic_evidence(const TopicStudy& study, const ResultsStudy& results,
     figure = curve_figure(view, view.blocks().front(), quantity);
   if (!figure) return group;
   figure->id = id_below(results.name, "headline");
+  figure->columns = 2;  // Names of setups are long.
   figure->title = capitalised(headline.value + " " + headline.label);
   group.figures.push_back(*std::move(figure));
   return group;

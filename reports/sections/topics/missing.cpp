@@ -129,9 +129,10 @@ ResultsStudy regrets_of(const ResultsStudy& results) {
   study.name = results.name;
   study.title = results.title;
   study.quantities = {kRegret};
-  study.methods = {{kAdvised, "chosen by the pattern of missing data"},
-                   {kPairwiseComplete, "always pairwise-complete"},
-                   {kPpca, "always PPCA"}};
+  for (const char* id : {kAdvised, kPairwiseComplete, kPpca})
+    if (const auto method = std::ranges::find(results.methods, id, &Label::id);
+        method != results.methods.end())
+      study.methods.push_back(*method);
   study.factors = results.factors;
   study.factors.push_back({pattern, "pattern of missing data"});
   study.results.quantities.declare(
