@@ -1,5 +1,4 @@
 #include "reports/sections/results/results_report.hpp"
-#include "reports/sections/results/results_conventions.hpp"
 
 #include <algorithm>
 
@@ -7,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "reports/sections/results/results_comparison.hpp"
+#include "reports/sections/results/results_conventions.hpp"
 #include "reports/sections/results/results_figures.hpp"
 #include "reports/sections/results/results_tables.hpp"
 #include "tests/reports/results_rows.hpp"
