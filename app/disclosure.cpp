@@ -216,7 +216,7 @@ std::string shortened_path(const std::string& path, const fs::path& here) {
     if (!inside.starts_with("..")) return inside.starts_with('-') ? "./" + inside : inside;
   }
   const fs::path name = there.has_filename() ? there.filename() : there.parent_path().filename();
-  return name.empty() ? path : "…/" + name.string();
+  return name.empty() ? path : kUnshownFolder + name.string();
 }
 
 void shorten_paths(std::string& word, const fs::path& here) {

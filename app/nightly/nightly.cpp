@@ -264,8 +264,8 @@ std::string commits_text(const NightlySummary& summary) {
         named.insert(group.commits.since.number).second) {
       text += fmt::format("  {}: commits {}\n    {}\n", group.commits.words(), group.commits.text(),
                           group.commits.bisect());
-      if (const std::string build = group.commits.build_words(); !build.empty())
-        text += "    " + build + "\n";
+      if (const std::string gaps = group.commits.bisect_gaps(); !gaps.empty())
+        text += "    " + gaps + "\n";
     }
   return text;
 }

@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/not_finite.hpp"
 #include "core/base/text/number_text.hpp"
@@ -311,10 +312,16 @@ std::string CommitRange::bisect() const {
                      short_commit(since.commit), short_commit(before.commit), shell_word(run));
 }
 
-std::string CommitRange::build_words() const {
-  if (!has_commits() || !since.build.empty()) return "";
-  return "Put the command that builds a commit and makes its results in place of BUILD, or give it "
-         "to nightly as --build.";
+std::string CommitRange::bisect_gaps() const {
+  if (!has_commits()) return "";
+  std::vector<std::string> gaps;
+  if (since.build.empty())
+    gaps.push_back(
+        "Put the command that builds a commit and makes its results in place of BUILD, or give it "
+        "to nightly as --build.");
+  if (bisect().find(kUnshownFolder) != std::string::npos)
+    gaps.push_back("Put the path of the folder, which is not shown, in place of each ….");
+  return fmt::format("{}", fmt::join(gaps, " "));
 }
 
 CommitRange commits_of(const StudyTrend& trend, int since) {

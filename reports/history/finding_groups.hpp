@@ -30,8 +30,9 @@ struct CommitRange {
   /// or BUILD if that is empty, and calls `since.command` without what names one commit or writes
   /// files.
   std::string bisect() const;
-  /// What to put for BUILD in bisect(); empty where it has none.
-  std::string build_words() const;
+  /// What a reader has to put into bisect() before it runs: in place of BUILD, and of the folders
+  /// that are not shown; empty where it is complete.
+  std::string bisect_gaps() const;
 };
 
 /// Nightly run `since` of a study and the one of it before.

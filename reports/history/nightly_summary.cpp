@@ -39,8 +39,8 @@ std::string markdown_item(const FindingGroup& group) {
   item += "\n";
   // A command as it stands, which no fence of Markdown ends.
   if (const std::string bisect = group.commits.bisect(); !group.known && !bisect.empty()) {
-    if (const std::string build = group.commits.build_words(); !build.empty())
-      item += "\n  " + build + "\n";
+    if (const std::string gaps = group.commits.bisect_gaps(); !gaps.empty())
+      item += "\n  " + gaps + "\n";
     item += "\n  <pre>" + html_escaped(printable(bisect, kLongestText)) + "</pre>\n";
   }
   return item;
@@ -91,7 +91,7 @@ std::string case_xml(const Case& one, const std::string& study) {
   for (const std::string& sentence : one.group->sentences) text += xml_line(sentence) + "\n";
   if (one.group->commits.has_commits())
     text += fmt::format("{}\n{}\n{}", xml_line(one.group->commits.text()),
-                        xml_line(one.group->commits.bisect()), one.group->commits.build_words());
+                        xml_line(one.group->commits.bisect()), one.group->commits.bisect_gaps());
   return fmt::format(
       "{}>\n      <failure message=\"{}\" type=\"{}\">{}</failure>\n    </testcase>\n", head,
       xml_line(one.group->headline()), name(one.group->rule), text);

@@ -6,7 +6,7 @@ namespace mapproof {
 
 std::string shell_word(const std::string& word) {
   // The home folder, and folders that are not named.
-  for (const std::string_view folder : {"~/", "…/"})
+  for (const std::string_view folder : {"~/", kUnshownFolder})
     if (word.starts_with(folder)) {
       const std::string inside = word.substr(folder.size());
       return std::string(folder) + (inside.empty() ? "" : shell_word(inside));

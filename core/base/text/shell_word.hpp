@@ -4,7 +4,11 @@
 
 namespace mapproof {
 
-/// A word as a POSIX shell takes it: in quotes where it needs them; "~/" stays in front of them.
+/// What stands in a command for a folder that is not to be named: "…/plaza".
+inline constexpr const char* kUnshownFolder = "…/";
+
+/// A word as a POSIX shell takes it: in quotes where it needs them; "~/" and kUnshownFolder stay in
+/// front of them.
 std::string shell_word(const std::string& word);
 
 }  // namespace mapproof

@@ -82,6 +82,17 @@ Layer in_grey(Layer layer) {
   return layer;
 }
 
+/// What is grey itself would pass for the baseline.
+Layer out_of_grey(Layer layer) {
+  std::visit(
+      [](auto& each) {
+        if constexpr (requires { each.colour; })
+          if (each.colour == ThemeColour::kMuted) each.colour = ThemeColour::kSeries1;
+      },
+      layer);
+  return layer;
+}
+
 /// Labels would cover the new positions; an image is not in the figure's value.
 bool is_drawn(const Layer& layer) {
   return !std::holds_alternative<PointLabels>(layer) &&
@@ -139,7 +150,7 @@ std::optional<Panel> changed_panel(const Panel& before, const Panel& after, cons
             i < before.layers.size() ? change_of_cells(before.layers[i], layer) : std::nullopt) {
       panel.layers.push_back(*std::move(cells));
     } else if (is_drawn(layer)) {
-      changed.push_back(plain(layer));
+      changed.push_back(out_of_grey(plain(layer)));
       set_side(changed.back(), "current");
     }
   }

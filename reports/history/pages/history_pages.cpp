@@ -52,8 +52,8 @@ FindingBlock finding_block(const FindingGroup& group, std::vector<Phrase> to, Ni
   block.details = group.sentences;
   block.known = group.known.has_value();
   block.command = block.known ? "" : commits.bisect();
-  if (const std::string build = commits.build_words(); !block.command.empty() && !build.empty())
-    block.details.push_back(build);
+  if (const std::string gaps = commits.bisect_gaps(); !block.command.empty() && !gaps.empty())
+    block.details.push_back(gaps);
   auto& phrases = block.text.phrases;
   phrases.push_back({group.study, Emphasis::kData});
   if (!group.setup.empty()) phrases.push_back({", " + group.setup});
@@ -306,7 +306,7 @@ std::optional<Paragraph> ways_to_cause(const IndexFacts& facts, const NightlySum
   std::string bisect;
   for (const FindingGroup& group : shown_groups(summary.groups)) {
     if (group.known) continue;
-    if (bisect.empty() && group.commits.build_words().empty()) bisect = group.commits.bisect();
+    if (bisect.empty() && group.commits.bisect_gaps().empty()) bisect = group.commits.bisect();
     const int before = group.commits.before.number, since = group.commits.since.number;
     const std::string file = comparison_file(before, since, group.study);
     if (!facts.comparisons.contains(file) || files.size() == kMostLinked ||

@@ -99,6 +99,25 @@ TEST(ChangeFigure, ShowsWhatIsEqualInGreyOnce) {
   EXPECT_EQ(walls[0].label, "wall") << "the legend names what is drawn";
 }
 
+TEST(ChangeFigure, ShowsNothingOfTheCurrentFigureInTheGreyOfTheBaseline) {
+  const auto with_errors = [](double y) {
+    Figure figure = landmarks();
+    figure.panels[0].layers.emplace_back(
+        Segments{.label = "error", .x0 = {1.0}, .y0 = {0.2}, .x1 = {1.0}, .y1 = {y}});
+    return figure;
+  };
+  ASSERT_EQ(Segments{}.colour, ThemeColour::kMuted);
+  const auto figure = change_figure({with_errors(0.4), with_errors(0.6)},
+                                    figure_diff(with_errors(0.4), with_errors(0.6)));
+  ASSERT_TRUE(figure);
+  const std::vector<Segments> errors = layers_of<Segments>(figure->panels[0]);
+  ASSERT_GE(errors.size(), 2U);
+  EXPECT_EQ(errors[0].label, "error, baseline");
+  EXPECT_EQ(errors[0].colour, ThemeColour::kMuted);
+  EXPECT_EQ(errors[1].label, "error, current");
+  EXPECT_NE(errors[1].colour, ThemeColour::kMuted);
+}
+
 TEST(ChangeFigure, OfEqualDataIsNone) {
   Figure titled = landmarks();
   titled.title = "Another title";

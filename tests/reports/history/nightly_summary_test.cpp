@@ -152,14 +152,27 @@ TEST(FindingGroups, SearchWithACommandThatNamesNoCommitAndWritesNothing) {
             "mapproof nightly '\\''a b.json'\\'' --store h --jobs 2 --bisect 2'");
 }
 
+TEST(FindingGroups, SayInWordsWhichFoldersOfTheSearchAreNotShown) {
+  CommitRange range = summary_of().groups[0].commits;
+  range.since.build = "make";
+  range.since.command = "mapproof nightly …/results --store '…/a store' --jobs 2";
+  EXPECT_EQ(range.bisect_gaps(),
+            "Put the path of the folder, which is not shown, in place of each ….");
+  range.since.build.clear();
+  EXPECT_NE(range.bisect_gaps().find("in place of BUILD"), std::string::npos);
+  EXPECT_NE(range.bisect_gaps().find("in place of each …"), std::string::npos);
+  range.since.command = "mapproof nightly results --store \"store\"";
+  EXPECT_EQ(range.bisect_gaps().find("…"), std::string::npos);
+}
+
 TEST(FindingGroups, SayInWordsWhatStandsForBuild) {
   CommitRange range = summary_of().groups[0].commits;
-  EXPECT_EQ(range.build_words(), "");
+  EXPECT_EQ(range.bisect_gaps(), "");
   range.since.build.clear();
   EXPECT_NE(range.bisect().find("'(BUILD) || exit 125; "), std::string::npos);
-  EXPECT_NE(range.build_words().find("in place of BUILD"), std::string::npos);
+  EXPECT_NE(range.bisect_gaps().find("in place of BUILD"), std::string::npos);
   range.before.commit.clear();
-  EXPECT_EQ(range.build_words(), "") << "there is no command";
+  EXPECT_EQ(range.bisect_gaps(), "") << "there is no command";
 }
 
 TEST(FindingGroups, SayBetweenWhichNightlyRunsTheyBegan) {
