@@ -199,41 +199,57 @@ const kThumbnail_px = 200;  // What small images have of width, if they are to b
 // The small images stand beside the figure, below the words, as large as the figure's height leaves
 // room for; where that is too little, in a row below both, as far as the first screen shows it. Where
 // long sentences leave the first screen no room for all of them, the first ones are shown, a map in
-// space before all: fewer, rather than smaller, as long as there is room for any.
+// space before all, beside the figure or under it, where more of them are seen: fewer, rather than
+// smaller, as long as there is room for any.
 function placeThumbnails() {
   const list = document.querySelector(".thumbnails"), beside = document.querySelector(".glance > .beside");
   const figure = document.querySelector(".main-figure");
   if (!list || !beside) return;
-  const put = (parent, columns, end) => {
-    if (parent) beside.append(list);
-    else beside.parentElement.after(list);
+  const place = (append, columns) => {
+    append(list);
     list.style.setProperty("--columns", columns);
+  };
+  const toSide = (each) => beside.append(each);
+  const fits = (append, columns, end) => {
+    place(append, columns);
     return list.getBoundingClientRect().bottom <= end;
   };
   list.style.removeProperty("--columns");
   const items = [...list.children];
   for (const element of [list, ...items]) element.hidden = false;
-  beside.append(list);
+  toSide(list);
   if (narrowPage.matches) return;
   const count = items.length, kSlack_px = 4;
   const foot = figure?.getBoundingClientRect().bottom ?? 0;
-  const most = Math.max(1, Math.round(beside.clientWidth / kThumbnail_px));
+  const columnsOf = (box) => Math.max(1, Math.round(box.clientWidth / kThumbnail_px));
+  const most = columnsOf(beside);
   for (let columns = 1; columns <= most && columns <= count; ++columns) {
-    if (put(true, columns, foot + kSlack_px)) return;
+    if (fits(toSide, columns, foot + kSlack_px)) return;
   }
   const screenEnd = innerHeight - scrollY;
   const inRow = Math.max(count, most + 1);
-  if (inRow * kThumbnail_px <= beside.parentElement.clientWidth && put(false, inRow, screenEnd)) return;
+  if (inRow * kThumbnail_px <= beside.parentElement.clientWidth &&
+      fits((each) => beside.parentElement.after(each), inRow, screenEnd)) return;
   const end = Math.max(foot, screenEnd);
+  if (fits(toSide, most, end)) return;
   const inSpace = items.find((item) => item.querySelector('a[href^="#figure-scene-"]'));
-  for (const columns of [most, most + 1]) {
-    for (const item of items) item.hidden = false;
-    if (put(true, columns, end)) return;
-    if (inSpace) list.prepend(inSpace);
-    for (const item of items) item.hidden = item.getBoundingClientRect().bottom > end;
-    if (items.some((item) => !item.hidden)) return;
+  if (inSpace) list.prepend(inSpace);
+  const seenAt = (append, columns) => {
+    place(append, columns);
+    return { append, columns, seen: items.filter((item) => item.getBoundingClientRect().bottom <= end) };
+  };
+  let best = seenAt(toSide, most);
+  if (figure) {
+    const under = seenAt((each) => figure.parentElement.append(each), columnsOf(figure));
+    if (under.seen.length > best.seen.length) best = under;
   }
-  list.hidden = true;
+  if (best.seen.length === 0) best = seenAt(toSide, most + 1);
+  if (best.seen.length === 0) {
+    list.hidden = true;
+    return;
+  }
+  place(best.append, best.columns);
+  for (const item of items) item.hidden = !best.seen.includes(item);
 }
 
 // The small images are placed when those that show next to nothing are left out, and when the figure

@@ -108,6 +108,27 @@ test("long sentences take the room of the small figures, which come back with it
   await close();
 });
 
+test("where sentences are long and the figure is low, the small figures stand under it", async () => {
+  const { page, close } = await open({ viewport: { width: 1280, height: 800 } });
+  await openingPlaced(page);
+  const placed = (more_px, figure_px) => page.evaluate(([longer, most]) => {
+    document.querySelector(".opening .finding").style.paddingBottom = `${longer}px`;
+    document.querySelector(".main-figure").style.setProperty("--most", `${most}px`);
+    placeThumbnails();
+    const figure = document.querySelector(".main-figure"), list = document.querySelector(".thumbnails");
+    const shown = [...list.children].filter((each) => each.checkVisibility());
+    return { isUnder: list.parentElement === figure.parentElement, shown: shown.length,
+      end: Math.max(0, ...shown.map((each) => each.getBoundingClientRect().bottom)),
+      foot: figure.getBoundingClientRect().bottom,
+      top: Math.min(...shown.map((each) => each.getBoundingClientRect().top)) };
+  }, [more_px, figure_px]);
+  const under = await placed(1600, 250);
+  assert.ok(under.isUnder && under.shown > 0, JSON.stringify(under));
+  assert.ok(under.top >= under.foot && under.end <= 800, JSON.stringify(under));
+  assert.equal((await placed(0, 500)).isUnder, false);
+  await close();
+});
+
 test("where sentences leave room for some small figures, a map in space is one of them", async () => {
   const { page, close } = await open({ viewport: { width: 1280, height: 800 } });
   await openingPlaced(page);
