@@ -1,15 +1,19 @@
 #include "app/failures.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <exception>
 #include <iostream>
 #include <new>
 #include <string_view>
+#include <utility>
 
 #include "core/base/errors.hpp"
+#include "core/base/files/input_file.hpp"
 #include "core/base/out_of_memory.hpp"
 #include "render/animation/animation.hpp"
+#include "render/figures/status_text.hpp"
 #include "render/scene_client/scene_client.hpp"
 
 namespace mapproof {
@@ -40,6 +44,24 @@ int try_work(const std::function<int()>& work, const std::string& of) {
   }
 }
 
+/// Whether a status is about the alignment of a map: where there is no map, it is a consequence.
+bool is_of_alignment(const Status& status) {
+  return status.code == StatusCode::kAnchorsMissing ||
+         status.code == StatusCode::kAnchorsDegenerate;
+}
+
+/// The sentences of the statuses, each once.
+std::string reasons(const std::vector<Status>& statuses) {
+  std::vector<std::string> sentences;
+  for (const Status& status : statuses)
+    if (std::string sentence = status_text(status);
+        !is_of_alignment(status) && std::ranges::find(sentences, sentence) == sentences.end())
+      sentences.push_back(std::move(sentence));
+  std::string text;
+  for (const std::string& sentence : sentences) text += (text.empty() ? "" : " ") + sentence;
+  return text;
+}
+
 }  // namespace
 
 ExitCode report_failure(const std::string& what, ExitCode code) {
@@ -49,6 +71,12 @@ ExitCode report_failure(const std::string& what, ExitCode code) {
   std::cerr << "mapproof: " << (is_memory ? "out of memory: " : "") << printable(what, 4000)
             << "\n";
   return is_memory ? kInternal : code;
+}
+
+ExitCode report_no_map(const std::string& input, const std::vector<Status>& statuses) {
+  const std::string why = reasons(statuses);
+  return report_failure(
+      input_name(input) + ": no map was made: " + (why.empty() ? "no method gave one" : why), kNo);
 }
 
 int exit_code_of(const std::function<int()>& work, const std::string& of) {

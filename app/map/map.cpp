@@ -184,7 +184,7 @@ Action map_command(CLI::App& app) {
       "Bearings are relative to the robot's heading, counter-clockwise (to the left), in radians;\n"
       "see --degrees and --bearing-convention for others.\n"
       "Range and bearing of one scan measure distances: their map is in metres without anchors.\n"
-      "The exit code is 1 if there is no map; the report states why.\n");
+      "The exit code is 1 if there is no map; the last line and the report state why.\n");
   add_map_options(app, *job);
   complete_help(app);
   return [job](const Invocation& invocation) { return run_map(*job, invocation); };

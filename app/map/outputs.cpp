@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "app/build_facts.hpp"
+#include "app/failures.hpp"
 #include "app/map/pipeline.hpp"
 #include "app/result_json.hpp"
 #include "app/study/folder_report.hpp"
@@ -244,7 +245,8 @@ int report_map(const MapResult& map, const MapOutput& location, const Invocation
   for (const Status& status : map.record.statuses)
     invocation.console.warning(fmt::format("{}: {}", name(status.code), status_text(status)));
   invocation.console.result(map_text(map, location.out), result_json(map, location.out));
-  return map.record.estimate.array().isNaN().all() ? kNo : kDone;
+  if (!map.record.estimate.array().isNaN().all()) return kDone;
+  return report_no_map(location.observations, map.record.statuses);
 }
 
 }  // namespace mapproof

@@ -26,7 +26,8 @@ struct MapOutput {
 std::string write_map(const MapFolder& folder, const MapOutput& location, const MapResult& map,
                       bool last = true);
 
-/// Shows a map's warnings and its result. @return The command's exit code: kNo if there is no map.
+/// Shows a map's warnings and its result, and, last, if and why there is no map.
+/// @return The command's exit code.
 int report_map(const MapResult& map, const MapOutput& location, const Invocation& invocation);
 
 }  // namespace mapproof

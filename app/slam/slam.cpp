@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -10,6 +11,7 @@
 
 #include "app/build_facts.hpp"
 #include "app/console.hpp"
+#include "app/failures.hpp"
 #include "app/input_streams.hpp"
 #include "app/map/incremental.hpp"
 #include "app/map/map_folder.hpp"
@@ -217,6 +219,16 @@ std::string slam_text(const SlamRun& run, const fs::path& out) {
   return text + (out / "report.html").string() + "\n";
 }
 
+/// Shows the result, and, last, if and why there is no map. @return The command's exit code.
+int report_slam(const SlamArguments& arguments, const SlamRun& run, const Invocation& invocation) {
+  invocation.console.result(slam_text(run, arguments.out), slam_result(run, arguments.out));
+  if (best_record(run) != nullptr) return kDone;
+  std::vector<Status> statuses;
+  for (const SlamRecord& record : run.records)
+    std::ranges::copy(record.estimate.statuses, std::back_inserter(statuses));
+  return report_no_map(arguments.data, statuses);
+}
+
 int incremental_slam(const SlamArguments& arguments, const Templates& page,
                      const Invocation& invocation) {
   MapJob job;
@@ -270,9 +282,7 @@ int map_ranges(SlamArguments arguments, const Invocation& invocation) {
       invocation.console.warning(fmt::format("{}: {}: {}", info(record.method).name,
                                              name(status.code), status_text(status)));
   write_outputs(arguments, result, page, invocation);
-  invocation.console.result(slam_text(result.run, arguments.out),
-                            slam_result(result.run, arguments.out));
-  return best_record(result.run) == nullptr ? kNo : kDone;
+  return report_slam(arguments, result.run, invocation);
 }
 
 void add_input_options(CLI::App& app, SlamArguments& arguments) {
@@ -342,7 +352,7 @@ Action slam_command(CLI::App& app) {
       "times. The window that brings them to common times is chosen by prediction error. Errors "
       "are\n"
       "reported only with ground truth. Without odometry the map may be reflected.\n"
-      "The exit code is 1 if there is no map; the report states why.\n");
+      "The exit code is 1 if there is no map; the last line and the report state why.\n");
   add_input_options(app, *arguments);
   add_fit_options(app, *arguments);
   app.add_flag(

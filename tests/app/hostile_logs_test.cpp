@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/child_process.hpp"
 #include "core/base/files/files.hpp"
 #include "tests/app/range_logs.hpp"
 #include "tests/support/program.hpp"
@@ -99,6 +100,12 @@ TEST_P(HostileLogs, GiveAPathOrAReasonInWords) {
     EXPECT_EQ(std::ranges::count(outcome.error, '\n'), 1) << outcome.error;
     EXPECT_FALSE(fs::exists(folder / "out"));
     return;
+  }
+  if (outcome.exit_code == 1) {
+    const std::string last = last_line(outcome.error);
+    EXPECT_TRUE(last.starts_with("mapproof: " + (folder / "log").string() + ": no map was made: "))
+        << last;
+    EXPECT_EQ(last.find("no method gave one"), std::string::npos) << last;
   }
   const nlohmann::json result = nlohmann::json::parse(outcome.out);
   EXPECT_FALSE(result.at("methods").empty());

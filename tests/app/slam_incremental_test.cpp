@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/child_process.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/random.hpp"
 #include "core/model/points.hpp"
@@ -96,6 +97,9 @@ TEST(SlamIncremental, OfTooLittleIsNoMap) {
   const Outcome outcome = followed("slam", folder, RangeTable(3).rows, {"--out", folder / "out"});
   EXPECT_EQ(outcome.exit_code, 1) << outcome.error;
   EXPECT_NE(outcome.error.find("too_few_observations"), std::string::npos) << outcome.error;
+  const std::string last = last_line(outcome.error);
+  EXPECT_TRUE(last.starts_with("mapproof: ")) << last;
+  EXPECT_NE(last.find(": no map was made: 7 landmarks at 3 steps; "), std::string::npos) << last;
 }
 
 /// All long options that the help of `slam` lists.

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/child_process.hpp"
 #include "core/base/files/files.hpp"
 #include "tests/app/range_logs.hpp"
 #include "tests/support/plaza.hpp"
@@ -125,6 +126,10 @@ TEST(Slam, WithoutOdometrySaysWhatItCannotDoAndMapsWhatComesTogether) {
   const Outcome apart = mapproof({"slam", folder / "apart", "--out", folder / "none"});
   EXPECT_EQ(apart.exit_code, 1) << apart.error;
   EXPECT_NE(apart.out.find("No method gave a map"), std::string::npos) << apart.out;
+  const std::string last = last_line(apart.error);
+  EXPECT_TRUE(last.starts_with("mapproof: " + (folder / "apart").string() + ": no map was made: "))
+      << apart.error;
+  EXPECT_NE(last.find(" are needed."), std::string::npos) << last;
   EXPECT_TRUE(fs::exists(folder / "none" / "report.html"));
 }
 

@@ -7,6 +7,7 @@
 
 #include "app/map/pipeline.hpp"
 #include "core/align/diagonal_anchors.hpp"
+#include "core/base/child_process.hpp"
 #include "core/records/observations/observation_json.hpp"
 #include "core/records/observations/observations.hpp"
 #include "tests/support/program.hpp"
@@ -154,8 +155,26 @@ TEST(Map, ThatCannotBeMadeSaysWhyAndExitsWithOne) {
   const Outcome outcome = mapproof({"map", seen, "--sensor", "bearing", "--method", "isomap", "-K",
                                     "2", "--out", folder / "map"});
   EXPECT_EQ(outcome.exit_code, 1) << outcome.error;
-  EXPECT_NE(outcome.error.find("share no observation"), std::string::npos);
+  EXPECT_EQ(last_line(outcome.error),
+            "mapproof: " + seen +
+                ": no map was made: Some groups of landmarks share no observation: nothing "
+                "determines where they lie relative to each other.");
   EXPECT_TRUE(fs::exists(folder / "map" / "report.html"));
+}
+
+TEST(Map, ThatCannotBeMadeDoesNotBlameTheAnchors) {
+  const TemporaryFolder folder;
+  const std::string seen =
+      folder.file("seen.csv", "a,1,2,,\nb,1.1,2.1,,\nc,1.2,2,,\nd,,,1,2\ne,,,1.5,2\nf,,,1,2.5\n");
+  const std::string anchors = folder.file("anchors.csv", "name,x,y\na,0,0\nb,1,0\nd,0,1\n");
+  const Outcome outcome =
+      mapproof({"map", seen, "--sensor", "bearing", "--method", "isomap", "-K", "2", "--anchors",
+                anchors, "--out", folder / "map", "--quiet", "--json"});
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.error;
+  EXPECT_NE(outcome.error.find("anchors_missing"), std::string::npos) << outcome.error;
+  const std::string last = last_line(outcome.error);
+  EXPECT_TRUE(last.starts_with("mapproof: " + seen + ": no map was made: Some groups")) << last;
+  EXPECT_EQ(last.find("anchor"), std::string::npos) << last;
 }
 
 TEST(Map, OfAnMrclamFolderUsesItsOwnGroundTruth) {
