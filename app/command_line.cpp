@@ -119,8 +119,7 @@ CLI::Validator finite_number() {
 
 CLI::Validator names_folder() {
   const auto problem = [](const std::string& text) -> std::string {
-    if (text == "-") return "standard input is not a folder";
-    return text.empty() ? "an empty name is not a folder" : "";
+    return text == "-" ? "standard input is not a folder" : "";
   };
   return {problem, "DIR"};
 }

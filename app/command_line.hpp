@@ -56,10 +56,10 @@ CLI::Validator above_zero();
 CLI::Validator not_negative();
 CLI::Validator finite_number();
 
-/// Refuses the empty name and "-": standard input is not a folder.
+/// Refuses "-": standard input is not a folder.
 CLI::Validator names_folder();
 
-/// Adds --out to a command: a folder, with a name.
+/// Adds --out to a command: a folder.
 CLI::Option* add_out_option(CLI::App& app, std::string& out, const std::string& what);
 
 }  // namespace mapproof

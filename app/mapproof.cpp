@@ -100,7 +100,37 @@ bool asks_for_version_json(std::span<const std::string> words) {
   return words.size() == 2 && (has("--version") || has("-V")) && has("--json");
 }
 
-/// Refuses words that look like options and are none of the command.
+/// Options and arguments of several words, by command, of which the first alone has to be filled:
+/// an empty text removes what was said of a nightly run, and a command that is checked, behind --,
+/// has arguments of its own.
+constexpr std::pair<std::string_view, std::string_view> kMayEndEmpty[] = {{"history", "--accept"},
+                                                                          {"history", "--known"},
+                                                                          {"history", "--note"},
+                                                                          {"check", "EXPERIMENT"}};
+
+[[noreturn]] void refuse_empty_value(const CLI::App& command, const CLI::Option& option) {
+  throw InvalidInput(fmt::format(
+      "{}: an empty value is not a value: give one, or leave it out; \"mapproof help {}\" shows "
+      "what it takes",
+      option.get_name(), command.get_name()));
+}
+
+/// Refuses empty values of options and arguments, which would else be as if they were not there.
+/// @param command  Parsed, or as far as it could be. @throws InvalidInput.
+void check_values(const CLI::App& command) {
+  for (const CLI::Option* option : options_of(command)) {
+    const bool may_end_empty = std::ranges::any_of(kMayEndEmpty, [&](const auto& one) {
+      return one.first == command.get_name() && one.second == option->get_name();
+    });
+    for (const std::string& word : option->results()) {
+      if (word.empty()) refuse_empty_value(command, *option);
+      if (may_end_empty) break;
+    }
+  }
+}
+
+/// Refuses words that look like options and are none of the command, and "--out=": the parser would
+/// take the next word for its value.
 /// @param words  Behind the command's name. @throws InvalidInput with the nearest option, or with
 ///               the new name of a retired one.
 void check_options(const CLI::App& command, std::span<const std::string> words) {
@@ -111,7 +141,13 @@ void check_options(const CLI::App& command, std::span<const std::string> words) 
     const bool is_option = name.size() > 1 && name[0] == '-' &&
                            (std::isalpha(static_cast<unsigned char>(name[1])) != 0 ||
                             (name[1] == '-' && name.size() > 2));
-    if (!is_option || std::ranges::find(names, name) != names.end()) continue;
+    if (!is_option) continue;
+    if (std::ranges::find(names, name) != names.end()) {
+      const CLI::Option& option = *command.get_option(name);
+      const bool is_flag = option.get_items_expected_max() == 0;
+      if (!is_flag && word == name + "=") refuse_empty_value(command, option);
+      continue;
+    }
     const std::string own = command.get_name() + " " + name;
     for (const std::string& retired : {lower_case(own), lower_case(name)})
       if (const auto now = replacement_of(NameKind::kOption, retired); !now.empty())
@@ -213,10 +249,12 @@ int run_command_of(int argc, char** argv) {
     if (!std::cout) throw IoError("standard output", "cannot be written");
     return code;
   } catch (const CLI::ParseError& error) {
+    if (command != nullptr) check_values(*command);
     throw InvalidInput(fmt::format("{}; \"mapproof {}\" shows what it takes",
                                    objection(error, command == nullptr ? app : *command), about));
   }
   if (command == nullptr) throw InvalidInput("no command; \"mapproof --help\" lists them");
+  check_values(*command);
 
   for (const auto& [sub, action] : actions)
     if (sub == command) return act(action, command->get_name(), common, {argv + 1, argv + argc});

@@ -1,6 +1,7 @@
 #include "app/help/command_facts.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -156,15 +157,19 @@ std::string explained(const OptionFacts& option) {
   return text.ends_with('.') || text.empty() ? text : text + ".";
 }
 
+std::vector<const CLI::Option*> options_of(const CLI::App& command) {
+  std::vector<const CLI::Option*> options = command.get_options();
+  for (const CLI::App* sub : command.get_subcommands({}))
+    if (sub->get_name().empty()) std::ranges::copy(options_of(*sub), std::back_inserter(options));
+  return options;
+}
+
 std::vector<std::string> option_names(const CLI::App& command) {
   std::vector<std::string> names;
-  for (const CLI::Option* option : command.get_options()) {
+  for (const CLI::Option* option : options_of(command)) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     for (const std::string& name : option->get_snames()) names.push_back("-" + name);
   }
-  for (const CLI::App* sub : command.get_subcommands({}))
-    if (sub->get_name().empty())
-      for (std::string& name : option_names(*sub)) names.push_back(std::move(name));
   return names;
 }
 

@@ -50,7 +50,10 @@ std::string spelled(const OptionFacts& option);
 /// The description with the values and the default behind it.
 std::string explained(const OptionFacts& option);
 
-/// All names of options of the command and of its groups, in order: "--out", "-o".
+/// The options and arguments of the command and of its groups, in order.
+std::vector<const CLI::Option*> options_of(const CLI::App& command);
+
+/// All names of these options: "--out", "-o".
 std::vector<std::string> option_names(const CLI::App& command);
 
 }  // namespace mapproof

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -54,6 +55,89 @@ TEST(CommandLine, VersionNamesWhatItIsLinkedWithAndTheCommit) {
   for (const char* part :
        {"mapproof 1.", "commit ", "Eigen 3.", "Cairo 1.", "oneTBB ", "HarfBuzz "})
     EXPECT_NE(version.out.find(part), std::string::npos) << part;
+}
+
+/// An option or argument that takes a value, and the words before the value.
+struct Valued {
+  std::string name;
+  std::vector<std::string> words;
+};
+
+/// All that the help of a command lists: its first long name, else its only one.
+std::vector<Valued> valued_in_help(const std::string& command) {
+  static const std::regex option(R"(  -.*?[^,] ([^-(\s]\S*)( \(required\))?)");
+  static const std::regex long_name(R"( (--[a-z0-9-]+))"), short_name(R"( (-\w))");
+  static const std::regex argument(R"(  ([A-Z]+)( \(required\))?)");
+  const Environment wide{{"COLUMNS", "100"}};
+  std::istringstream help(mapproof({command, "--help"}).out);
+  std::vector<Valued> found;
+  std::vector<std::string> before = {command};
+  std::smatch match;
+  for (std::string line; std::getline(help, line);) {
+    if (std::regex_match(line, match, argument)) {
+      found.push_back({match[1].str(), before});
+      before.emplace_back("x");
+    } else if (std::regex_match(line, option) && (std::regex_search(line, match, long_name) ||
+                                                  std::regex_search(line, match, short_name))) {
+      found.push_back({match[1].str(), {command, match[1].str()}});
+    }
+  }
+  return found;
+}
+
+std::string refusal_of_empty(const std::string& command, const std::string& name) {
+  return "mapproof: " + name +
+         ": an empty value is not a value: give one, or leave it out; \"mapproof help " + command +
+         "\" shows what it takes\n";
+}
+
+TEST(CommandLine, NoOptionAndNoArgumentTakesAnEmptyValue) {
+  std::set<std::string> names;
+  for (const std::string& command : all_commands())
+    for (const Valued& valued : valued_in_help(command)) {
+      names.insert(command + " " + valued.name);
+      std::vector<std::string> words = valued.words;
+      words.emplace_back("");
+      const Outcome outcome = mapproof(words);
+      EXPECT_EQ(outcome.exit_code, 2) << command << " " << valued.name;
+      EXPECT_EQ(outcome.error, refusal_of_empty(command, valued.name));
+      EXPECT_TRUE(outcome.out.empty()) << outcome.out;
+    }
+  for (const char* known :
+       {"map OBSERVATIONS", "map --anchors", "map --neighbours", "map --ellipses", "slam --columns",
+        "check --out", "check EXPERIMENT", "diff CURRENT", "history --known", "render --title",
+        "run --seed", "validate FILE"})
+    EXPECT_TRUE(names.contains(known)) << known;
+  EXPECT_FALSE(names.contains("map --degrees")) << "a flag";
+}
+
+TEST(CommandLine, AnEmptyValueBehindAnEqualsSignDoesNotTakeTheNextWord) {
+  const TemporaryFolder folder;
+  const std::string seen = std::string(MAPPROOF_TEST_DATA) + "/mrclam";
+  for (const char* option : {"--anchors", "--truth", "--neighbours", "--out"}) {
+    const std::string first = option == std::string("--truth") ? "--ground-truth" : option;
+    const Outcome outcome =
+        mapproof({"map", seen, std::string(option) + "=", "--out", folder / "out"});
+    EXPECT_EQ(outcome.exit_code, 2) << option;
+    EXPECT_EQ(outcome.error, refusal_of_empty("map", first));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
+TEST(CommandLine, TheTextOfANoteAndTheArgumentsOfACheckedCommandMayBeEmpty) {
+  const TemporaryFolder folder;
+  for (const char* option : {"--note", "--known", "--accept"}) {
+    const Outcome removed = mapproof({"history", folder / "none", option, "1", ""});
+    EXPECT_EQ(removed.exit_code, 2);
+    EXPECT_NE(removed.error.find((folder / "none").string()), std::string::npos) << removed.error;
+    EXPECT_EQ(mapproof({"history", folder / "none", option, "", "text"}).error,
+              refusal_of_empty("history", option));
+  }
+  write_file(folder / "baseline/a.txt", "");
+  const std::string marked = folder / "marked";
+  mapproof({"check", "--baseline", folder / "baseline", "--out", folder / "out", "--", "sh", "-c",
+            "test $# = 1 && touch \"$0\"", marked, ""});
+  EXPECT_TRUE(std::filesystem::exists(marked));
 }
 
 TEST(CommandLine, WrongUsageIsTwoAndOneClearLine) {
