@@ -19,6 +19,7 @@
 #include "core/base/files/byte_source.hpp"
 #include "core/base/files/input_file.hpp"
 #include "core/base/files/output_folder.hpp"
+#include "core/base/files/paths.hpp"
 #include "core/base/text/words.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/json/json_document.hpp"
@@ -490,18 +491,19 @@ Finding check(const fs::path& path, const ForeignReader& foreign,
   }
 }
 
-/// What is read again of a study's or a map's folder; figures and pages are of other kinds.
+/// What is read again of a study's or a map's folder, and what stands in the place of such a file;
+/// figures and pages are of other kinds.
 std::vector<fs::path> our_files(const fs::path& folder) {
   std::vector<fs::path> paths;
   std::error_code error;
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     std::error_code ignored;
-    const bool is_ours = entry->path().extension() == ".json" ||
-                         entry->path().filename() == "timings.jsonl" ||
-                         entry->path().filename() == "map.csv" ||
-                         entry->path().filename() == "results.csv" || is_leftover(entry->path());
-    if (is_ours && entry->is_regular_file(ignored)) paths.push_back(entry->path());
+    const bool is_ours =
+        entry->path().extension() == ".json" || entry->path().filename() == "timings.jsonl" ||
+        entry->path().filename() == "map.csv" || entry->path().filename() == "results.csv" ||
+        (is_leftover(entry->path()) && entry->is_regular_file(ignored));
+    if (is_ours) paths.push_back(entry->path());
   }
   if (error) throw IoError(folder.string(), "cannot be searched: " + error.message());
   std::ranges::sort(paths);
@@ -545,11 +547,9 @@ std::vector<fs::path> studies_below(const fs::path& folder) {
 std::vector<Finding> check_folder(const fs::path& folder, const ForeignReader& foreign,
                                   const ValidateOptions& options) {
   std::vector<Finding> findings;
-  std::error_code error;
   const std::vector<fs::path> studies = studies_below(folder);
-  const bool is_ours = is_study(folder) || !studies.empty() ||
-                       fs::is_regular_file(folder / "map.json", error) ||
-                       fs::is_regular_file(folder / "slam.json", error);
+  const bool is_ours = is_study(folder) || !studies.empty() || is_there(folder / "map.json") ||
+                       is_there(folder / "slam.json");
   if (is_ours) refuse_links_out(folder);
   if (is_study(folder)) findings.push_back(check_study(folder));
   for (const fs::path& study : studies) findings.push_back(check_study(study));

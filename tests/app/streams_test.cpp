@@ -395,6 +395,28 @@ TEST(Streams, PipesAndDevicesWithinFoldersAreNamedAtOnce) {
   }
 }
 
+TEST(Streams, APipeInPlaceOfAFileOfAStudyOrAMapIsNamedAtOnce) {
+  for (const char* name : {"study.json", "results.csv", "timings.jsonl"}) {
+    const TemporaryFolder folder;
+    folder.file("set/study.json", R"({"schema": {"name": "mapproof.results_study", "version": 1},
+      "title": "T"})");
+    folder.file("set/results.csv", "setup,method,quantity,value\ns,m,mpe_m,0.5\n");
+    fs::remove(folder / "set" / name);
+    ASSERT_EQ(::mkfifo((folder / "set" / name).c_str(), 0600), 0);
+    expect_named(folder, std::string("set/") + name + ": is a named pipe, a file was expected",
+                 {"validate set"});
+    if (name != std::string("timings.jsonl"))
+      expect_named(folder, std::string(name) + ": is a named pipe", {"report set"});
+  }
+  for (const char* name : {"map.json", "slam.json"}) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder / "set");
+    ASSERT_EQ(::mkfifo((folder / "set" / name).c_str(), 0600), 0);
+    expect_named(folder, std::string("set/") + name + ": is a named pipe, a file was expected",
+                 {"validate set"});
+  }
+}
+
 TEST(Streams, APipeInPlaceOfAHistoryIsNamedAtOnce) {
   const TemporaryFolder folder;
   ASSERT_EQ(::mkfifo((folder / "history.sqlite").c_str(), 0600), 0);

@@ -17,10 +17,7 @@ namespace mapproof {
 
 namespace fs = std::filesystem;
 
-bool is_study(const fs::path& folder) {
-  std::error_code error;
-  return is_there(folder / kStudyFile) && fs::is_regular_file(folder / kStudyFile, error);
-}
+bool is_study(const fs::path& folder) { return is_there(folder / kStudyFile); }
 
 void require_study(const fs::path& folder) {
   std::error_code error;

@@ -14,7 +14,8 @@ inline constexpr const char* kStudyFile = "study.json";
 inline constexpr const char* kTimingsFile = "timings.jsonl";
 inline constexpr const char* kResultsFile = "results.csv";
 
-/// Whether the folder holds a study.json. @throws IoError as is_there().
+/// Whether the folder holds a study.json, be it readable or not: what stands in its place and is
+/// not a file is refused by its reader. @throws IoError as is_there().
 bool is_study(const std::filesystem::path& folder);
 
 /// Every reader of a study asks it first.

@@ -1,8 +1,14 @@
 #include "core/studies/validate.hpp"
 
-#include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
@@ -103,6 +109,37 @@ TEST(Validate, NamesTheDamagedFileOfAStudy) {
             1);
   EXPECT_NE(findings[1].problem.find("maps/layout-1-pose-1.json: line 1, column 2: the file is"),
             std::string::npos);
+}
+
+TEST(Validate, NamesWhatStandsInThePlaceOfAFileOfAStudy) {
+  namespace fs = std::filesystem;
+  using Make = bool (*)(const fs::path& path);
+  const std::vector<std::pair<std::string, Make>> others = {
+      {"a named pipe",
+       [](const fs::path& path) { return ::mknod(path.c_str(), S_IFIFO | 0600, 0) == 0; }},
+      {"a socket",
+       [](const fs::path& path) { return ::mknod(path.c_str(), S_IFSOCK | 0600, 0) == 0; }},
+      {"a device",
+       [](const fs::path& path) {
+         fs::create_symlink("/dev/zero", path);
+         return true;
+       }},
+      {"a folder", [](const fs::path& path) { return fs::create_directory(path); }}};
+  for (const char* file : {"study.json", "results.csv", "timings.jsonl",
+                           "runs/layout-1-pose-1.json", "maps/layout-1-pose-1.json"})
+    for (const auto& [other, make] : others) {
+      const TemporaryFolder folder;
+      StudyWriter(folder.path(), study_start(test::small_experiment(), test::made_up_provenance()))
+          .write(part_of(test::made_up_result({1, 1})));
+      const fs::path path = folder / file;
+      fs::remove(path);
+      ASSERT_TRUE(make(path)) << path << other;
+      std::vector<std::string> problems;
+      for (const Finding& finding : validate(folder.path()))
+        if (!finding.problem.empty()) problems.push_back(finding.problem);
+      EXPECT_EQ(problems, std::vector<std::string>(
+                              {path.string() + ": is " + other + ", a file was expected"}));
+    }
 }
 
 TEST(Validate, AsksForForeignFilesWhetherTheyAreKnown) {
