@@ -58,13 +58,26 @@ std::string ring_at(std::string_view marker) {
                      attribute(marker, "x"), attribute(marker, "y"));
 }
 
-/// Which panel that place is in: each ends with its frame.
-std::size_t panel_at(std::string_view svg, std::size_t place) {
-  constexpr std::string_view kFrame = "<g class=\"frame\"";
-  std::size_t panel = 0;
-  for (std::size_t at = svg.find(kFrame); at < place; at = svg.find(kFrame, at + 1)) ++panel;
-  return panel;
-}
+/// Counts the panels of a drawing: each ends with its frame.
+class PanelCount {
+ public:
+  /// Which panel a place is in.
+  /// @param place  Where an element begins, behind the one asked for before; what is inserted
+  ///               stands behind it.
+  std::size_t at(std::string_view svg, std::size_t place) {
+    constexpr std::string_view kFrame = "<g class=\"frame\"";
+    const std::string_view between = svg.substr(seen_, place - seen_);
+    for (std::size_t frame = between.find(kFrame); frame != std::string_view::npos;
+         frame = between.find(kFrame, frame + 1))
+      ++panel_;
+    seen_ = place;
+    return panel_;
+  }
+
+ private:
+  std::size_t seen_ = 0;
+  std::size_t panel_ = 0;
+};
 
 }  // namespace
 
@@ -76,6 +89,7 @@ std::size_t mark_curve(const RegressedCurve& curve, std::string& svg) {
   std::vector<std::string> wanted;
   for (const double x : curve.at) wanted.push_back(marker_x(x));
   std::set<std::string> ringed;  // Single runs at the same x get none.
+  PanelCount panels;
   std::size_t count = 0;
   for (std::size_t at = svg.find(of_curve); at != std::string::npos;
        at = svg.find(of_curve, at + 1)) {
@@ -88,7 +102,7 @@ std::size_t mark_curve(const RegressedCurve& curve, std::string& svg) {
     };
     if (tag.starts_with("<use ")) {  // A mean above the frame, to which no line leads.
       const std::string_view x = attribute(tag, "data-x");
-      if (panel_at(svg, begin) != curve.panel || !is_wanted(x) || !ringed.emplace(x).second)
+      if (panels.at(svg, begin) != curve.panel || !is_wanted(x) || !ringed.emplace(x).second)
         continue;
       ring = ring_id(tag);
       ++count;
