@@ -58,9 +58,9 @@ Section contents_section(const std::vector<FolderReport>& parts) {
 
 constexpr const char* kReportFile = "report.html";
 
-std::string figure_command(const fs::path& folder) {
+std::string figure_command(const fs::path& folder, const Disclosure& disclosure) {
   return quoted_command(
-      {"mapproof", "render", Disclosure(false).words({folder.string()}).front(), "--figure"});
+      {"mapproof", "render", disclosure.words({folder.string()}).front(), "--figure"});
 }
 
 constexpr std::size_t kMostNumbers = 6, kMostFindings = 6;
@@ -284,7 +284,7 @@ std::string title_of(const std::vector<FolderReport>& parts) {
 }  // namespace
 
 FolderReport joined_report(const fs::path& folder, std::vector<FolderReport> parts) {
-  FolderReport all{.folder = folder};
+  FolderReport all{.folder = folder, .is_of_studies = true};
   all.report.title = title_of(parts);
   all.report.subtitle = std::ranges::all_of(parts, is_paper_study)
                             ? "Two papers reproduced"
@@ -294,7 +294,6 @@ FolderReport joined_report(const fs::path& folder, std::vector<FolderReport> par
                                        short_title(parts[1].report.title));
   all.report.opening = joined_opening(parts);
   all.report.sections.push_back(contents_section(parts));
-  all.report.figure_command = figure_command(folder);
   for (FolderReport& part : parts) {
     all.runs += part.runs;
     std::ranges::move(part.figures, std::back_inserter(all.figures));
@@ -332,7 +331,7 @@ FolderReport read_report(const fs::path& folder, const std::optional<std::string
     made_by = sessions.empty() ? fallback : sessions.back().command;
   }
   FolderReport report = outputs_of_study(folder).report(folder, made_by);
-  report.report.figure_command = figure_command(folder);
+  report.is_of_studies = true;
   return report;
 }
 
@@ -455,6 +454,8 @@ fs::path write_report(const FolderReport& report, const ReportOutputs& outputs,
   if (shown.date.empty())  // Records that do not say when they were made: the page does of itself.
     shown.date = today_utc();
   if (!drawn.renderer.empty()) add_renderer(shown, drawn.renderer);
+  if (report.is_of_studies)
+    shown.figure_command = figure_command(report.folder, outputs.disclosure);
   write_tables(shown, folder / "tables");
   const auto bytes_of = [&](const std::string& id) { return drawn.svg_bytes(id); };
   const auto drawing = [&](const std::string& id) {

@@ -24,6 +24,7 @@ enum class StudyOrigin { kPaper, kTopic, kTable };
 struct FolderReport {
   std::filesystem::path folder;
   StudyOrigin origin = StudyOrigin::kPaper;
+  bool is_of_studies = false;  ///< The folder has their records, of which `render` draws figures.
   Report report = {};
   std::vector<Section> in_company =
       {};                            ///< Its sections as they stand beside those of other studies.

@@ -217,6 +217,17 @@ TEST(Provenance, NamesNoFolderThatAnArgumentIsIn) {
   EXPECT_NE(read_file(out / "run/timings.jsonl").find("run …/small.json"), std::string::npos);
 }
 
+TEST(Provenance, OfTheCommandThatDrawsAFigureNamesItsFolderIfThatIsAskedFor) {
+  const TwoStudies studies;
+  const auto has = [&](const std::string& words) {
+    return read_file(studies.before + "/report.html").find(words) != std::string::npos;
+  };
+  expect_done({"report", studies.before});
+  EXPECT_TRUE(has("mapproof render …/before --figure ID"));
+  expect_done({"report", studies.before, "--provenance", "full"});
+  EXPECT_TRUE(has("mapproof render " + studies.before + " --figure ID"));
+}
+
 TEST(Disclosure, NamesNoUserHostOrAddressInACommand) {
   const Environment environment{{{"HOME", "/home/ann"}, {"USER", "ann"}, {"LOGNAME", "ann"}}};
   const Disclosure reduced(false);
