@@ -263,6 +263,22 @@ TEST(ResultsFigures, ALevelOf0IsNoHindranceToALogarithmicAxis) {
   EXPECT_NE(figure.caption.find("level 0"), std::string::npos);
 }
 
+TEST(ResultsFigures, AnAxisIsLogarithmicOnlyWhereMostRunsAreAbove0) {
+  const auto scale_of = [](const std::string& quantity, const std::string& runs_of_0) {
+    Rows rows(quantity);
+    rows.declare(study_quantity(quantity, "Shortfall", "m", Better::kLower));
+    for (const std::string run : {"a", "b", "c", "d", "e", "f"})
+      for (const double noise : {0.1, 0.2})
+        rows.add("m", run, runs_of_0.find(run) == std::string::npos ? 0.1 : 0.0, {{"noise", noise}})
+            .add("n", run, 9.0 + noise, {{"noise", noise}});
+    const ResultsStudy study = rows.study();
+    return results_figures(ResultsView(study), {}).groups.at(0).figures.at(0).panels.at(0).y.scale;
+  };
+  EXPECT_EQ(scale_of("shortfall_m", "abc"), Scale::kLinear) << "the best of a run falls short by 0";
+  EXPECT_EQ(scale_of("shortfall_m", "a"), Scale::kLog) << "one run is 0 by chance";
+  EXPECT_EQ(scale_of("regret_m", ""), Scale::kLog) << "whatever the name";
+}
+
 TEST(ResultsFigures, WhatIsTheSameEverywhereHasNone) {
   Rows rows;
   for (const double noise : {0.1, 0.2})

@@ -374,29 +374,38 @@ std::string label_of_curve(const Curves& curves, const std::string& line) {
                                                                                          : label;
 }
 
+/// Calls `visit` for each point of the curves, with the curve's label, x, and the values of the
+/// runs that it is the mean of.
+template <typename Visit>
+void for_each_point(const ResultsView& view, const ResultsBlock& block, const Quantity& quantity,
+                    const Curves& curves, const Visit& visit) {
+  const bool is_log = scale_of(block.levels) == Scale::kLog;
+  for (const ResultsLine& line : view.lines(block, quantity)) {
+    const std::string label = label_of_curve(curves, line.label);
+    if (label.empty()) continue;
+    for (std::size_t i = 0; i < block.levels.size(); ++i)
+      if (const double x = std::get<double>(block.levels[i].value); !is_log || x != 0.0)
+        visit(label, x, view.numbers(block.conditions[i], line, quantity).values);
+  }
+}
+
 /// The values of the runs that the curves are means of, if these are too few for intervals; none
 /// of more curves than have styles of their own.
 std::vector<ErrorPoint> runs_of(const ResultsView& view, const ResultsBlock& block,
                                 const Quantity& quantity, const Curves& curves) {
   std::vector<ErrorPoint> points;
   if (view.has_groups_for_intervals() || curves.lines.size() > kMethodStyles) return points;
-  const bool is_log = scale_of(block.levels) == Scale::kLog;
-  for (const ResultsLine& line : view.lines(block, quantity)) {
-    const std::string label = label_of_curve(curves, line.label);
-    if (label.empty()) continue;
-    for (std::size_t i = 0; i < block.levels.size(); ++i) {
-      const double x = std::get<double>(block.levels[i].value);
-      const auto values = view.numbers(block.conditions[i], line, quantity).values;
-      if (values.size() < 2 || (is_log && x == 0.0)) continue;
-      for (const auto& [run, value] : values)
-        points.push_back({.label = kSingleRuns,
-                          .line = label,
-                          .x = x,
-                          .y = value,
-                          .marker = Marker::kCircle,
-                          .size = 0.6});
-    }
-  }
+  for_each_point(view, block, quantity, curves,
+                 [&](const std::string& label, double x, const ValuesByRun& values) {
+                   if (values.size() < 2) return;
+                   for (const auto& [run, value] : values)
+                     points.push_back({.label = kSingleRuns,
+                                       .line = label,
+                                       .x = x,
+                                       .y = value,
+                                       .marker = Marker::kCircle,
+                                       .size = 0.6});
+                 });
   return points;
 }
 
@@ -428,10 +437,17 @@ void add_aim(Panel& panel, double aim, const std::vector<ErrorLine>& lines) {
 }
 
 /// From which greatest over least mean the y axis is logarithmic. Shares never have such an axis,
-/// nor has a difference from the best, which is often 0.
-double log_from(const Quantity& quantity) {
-  const bool is_linear = quantity.unit == "%" || quantity.id.starts_with("regret_");
-  return is_linear ? HUGE_VAL : LevelCurveSpec{}.log_from;
+/// nor has what is 0 in half the runs of a point, as a difference from the best often is.
+double log_from(const ResultsView& view, const ResultsBlock& block, const Quantity& quantity,
+                const Curves& curves) {
+  bool are_above_0 = true;
+  for_each_point(view, block, quantity, curves,
+                 [&](const std::string& /*label*/, double /*x*/, const ValuesByRun& values) {
+                   const auto above = std::ranges::count_if(
+                       values, [](const auto& run) { return run.second > 0.0; });
+                   are_above_0 = are_above_0 && (values.empty() || 2 * above > std::ssize(values));
+                 });
+  return quantity.unit == "%" || !are_above_0 ? HUGE_VAL : LevelCurveSpec{}.log_from;
 }
 
 /// Which method is best at most of the points of several panels, see best_of_points(). Empty of too
@@ -490,7 +506,7 @@ std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& 
     finding = course_of(curves.lines, quantity, shown.unit, spec.great_errors, spec.x_label,
                         view.has_groups_for_intervals() ? kNoneIsBest : kTooFewRuns);
   spec.title = fmt::format("{}: {}", block.title, finding.empty() ? quantity.label : finding);
-  spec.log_from = log_from(quantity);
+  spec.log_from = log_from(view, block, quantity, curves);
   const std::optional<Note> of_intervals = intervals_note(view, curves);
   spec.methods = drawn(std::move(curves));
   Figure figure = level_curve_figure(spec);
@@ -515,7 +531,6 @@ std::optional<Figure> overview_figure(const ResultsView& view, const ResultsOver
   spec.great_errors = view.has_great_errors(quantity);
   spec.has_runs = view.runs() > 1;
   spec.record_ids = {record_of(*overview.blocks.front())};
-  spec.log_from = log_from(quantity);
   std::vector<std::string> joined;
   std::vector<std::vector<ErrorLine>> judged;
   for (std::size_t i = 0; i < overview.blocks.size(); ++i) {
@@ -531,6 +546,7 @@ std::optional<Figure> overview_figure(const ResultsView& view, const ResultsOver
       spec.notes.push_back(*note);
     joined.insert(joined.end(), curves.joined.begin(), curves.joined.end());
     panel.points = runs_of(view, block, quantity, curves);
+    spec.log_from = std::max(spec.log_from, log_from(view, block, quantity, curves));
     if (!panel.points.empty()) spec.remark = kSingleRunsRemark;
   }
   if (std::ranges::all_of(spec.panels, [](const ErrorPanel& panel) { return panel.lines.empty(); }))
