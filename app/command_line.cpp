@@ -45,6 +45,12 @@ void group_options(CLI::App& app, const OptionGroups& groups) {
     for (const std::string& name : names) app.get_option(name)->group(group);
 }
 
+void exclude_one_another(CLI::App& app, const std::vector<std::string>& names) {
+  for (auto one = names.begin(); one != names.end(); ++one)
+    for (auto other = one + 1; other != names.end(); ++other)
+      app.get_option(*one)->excludes(app.get_option(*other));
+}
+
 void add_jobs_option(CLI::App& app, int& jobs) {
   jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   app.add_option("-j,--jobs", jobs,

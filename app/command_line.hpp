@@ -38,6 +38,10 @@ std::string quoted_command(const std::vector<std::string>& words);
 using OptionGroups = std::vector<std::pair<std::string, std::vector<std::string>>>;
 void group_options(CLI::App& app, const OptionGroups& groups);
 
+/// Lets at most one of these options be given. A group of options of the parser would do so, too,
+/// but has an empty name, and so takes an empty word for the name of a command.
+void exclude_one_another(CLI::App& app, const std::vector<std::string>& names);
+
 /// Adds --jobs to a command: threads, by default one per core.
 void add_jobs_option(CLI::App& app, int& jobs);
 

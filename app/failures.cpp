@@ -1,6 +1,7 @@
 #include "app/failures.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <exception>
@@ -44,19 +45,20 @@ int try_work(const std::function<int()>& work, const std::string& of) {
   }
 }
 
-/// Whether a status is about the alignment of a map: where there is no map, it is a consequence.
-bool is_of_alignment(const Status& status) {
-  return status.code == StatusCode::kAnchorsMissing ||
-         status.code == StatusCode::kAnchorsDegenerate;
-}
+/// What may leave a map without positions; all else is about a map that came out, or its alignment.
+constexpr std::array kMayLeaveNoMap = {
+    StatusCode::kNotConverged,       StatusCode::kRankDeficient,      StatusCode::kLandmarkUnseen,
+    StatusCode::kDegenerateGeometry, StatusCode::kTooFewObservations, StatusCode::kFailed};
 
-/// The sentences of the statuses, each once.
+/// Why there is no map: the sentences of the statuses, each once.
 std::string reasons(const std::vector<Status>& statuses) {
   std::vector<std::string> sentences;
-  for (const Status& status : statuses)
-    if (std::string sentence = status_text(status);
-        !is_of_alignment(status) && std::ranges::find(sentences, sentence) == sentences.end())
+  for (const Status& status : statuses) {
+    if (std::ranges::find(kMayLeaveNoMap, status.code) == kMayLeaveNoMap.end()) continue;
+    std::string sentence = status_text(status);
+    if (std::ranges::find(sentences, sentence) == sentences.end())
       sentences.push_back(std::move(sentence));
+  }
   std::string text;
   for (const std::string& sentence : sentences) text += (text.empty() ? "" : " ") + sentence;
   return text;

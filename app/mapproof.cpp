@@ -118,7 +118,7 @@ constexpr std::pair<std::string_view, std::string_view> kMayEndEmpty[] = {{"hist
 /// Refuses empty values of options and arguments, which would else be as if they were not there.
 /// @param command  Parsed, or as far as it could be. @throws InvalidInput.
 void check_values(const CLI::App& command) {
-  for (const CLI::Option* option : options_of(command)) {
+  for (const CLI::Option* option : command.get_options()) {
     const bool may_end_empty = std::ranges::any_of(kMayEndEmpty, [&](const auto& one) {
       return one.first == command.get_name() && one.second == option->get_name();
     });

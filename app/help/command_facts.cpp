@@ -1,7 +1,6 @@
 #include "app/help/command_facts.hpp"
 
 #include <algorithm>
-#include <iterator>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -73,16 +72,6 @@ OptionFacts option_facts(const CLI::Option& option) {
   return facts;
 }
 
-void add_options(const CLI::App& command, CommandFacts& facts) {
-  // A group of options inherits --help from its command.
-  const CLI::Option* repeated = command.get_name().empty() ? command.get_help_ptr() : nullptr;
-  for (const CLI::Option* option : command.get_options())
-    if (!option->get_group().empty() && option != repeated)
-      facts.options.push_back(option_facts(*option));
-  for (const CLI::App* sub : command.get_subcommands({}))
-    if (sub->get_name().empty()) add_options(*sub, facts);
-}
-
 /// Its first long name, else its only one: later long names are aliases.
 const std::string& long_name(const OptionFacts& option) {
   const auto found = std::ranges::find_if(
@@ -97,15 +86,15 @@ CommandFacts facts_of(const CLI::App& command) {
                      .description = command.get_description(),
                      .footer = command.get_footer(),
                      .options = {}};
-  add_options(command, facts);
+  for (const CLI::Option* option : command.get_options())
+    if (!option->get_group().empty()) facts.options.push_back(option_facts(*option));
   return facts;
 }
 
 ProgramFacts program_facts(const CLI::App& program) {
   ProgramFacts facts{.program = facts_of(program), .commands = {}};
   for (const CLI::App* sub : program.get_subcommands({}))
-    if (!sub->get_name().empty() && !sub->get_group().empty())
-      facts.commands.push_back(facts_of(*sub));
+    if (!sub->get_group().empty()) facts.commands.push_back(facts_of(*sub));
   return facts;
 }
 
@@ -157,16 +146,9 @@ std::string explained(const OptionFacts& option) {
   return text.ends_with('.') || text.empty() ? text : text + ".";
 }
 
-std::vector<const CLI::Option*> options_of(const CLI::App& command) {
-  std::vector<const CLI::Option*> options = command.get_options();
-  for (const CLI::App* sub : command.get_subcommands({}))
-    if (sub->get_name().empty()) std::ranges::copy(options_of(*sub), std::back_inserter(options));
-  return options;
-}
-
 std::vector<std::string> option_names(const CLI::App& command) {
   std::vector<std::string> names;
-  for (const CLI::Option* option : options_of(command)) {
+  for (const CLI::Option* option : command.get_options()) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     for (const std::string& name : option->get_snames()) names.push_back("-" + name);
   }

@@ -50,10 +50,7 @@ std::string spelled(const OptionFacts& option);
 /// The description with the values and the default behind it.
 std::string explained(const OptionFacts& option);
 
-/// The options and arguments of the command and of its groups, in order.
-std::vector<const CLI::Option*> options_of(const CLI::App& command);
-
-/// All names of these options: "--out", "-o".
+/// All names of options of the command, in order: "--out", "-o".
 std::vector<std::string> option_names(const CLI::App& command);
 
 }  // namespace mapproof

@@ -22,19 +22,18 @@ void add_method_options(CLI::App& app, MapJob& job) {
       "The embedding method, see \"mapproof methods\". auto: the best one, judged without "
       "ground truth (default for up to 200 landmarks if it takes seconds, else isomap; pairs for "
       "range-bearing)");
-  CLI::Option_group* parameter =
-      app.add_option_group("Parameter of the method", "One of these, see \"mapproof methods\"");
-  parameter->require_option(0, 1);
-  parameter->add_option("--parameter", job.parameter, "The parameter, whatever the method")
+  app.add_option("--parameter", job.parameter,
+                 "The parameter, whatever the method, see \"mapproof methods\"")
       ->check(finite_number());
-  parameter->add_option("-K,--neighbours", job.neighbours,
-                        "Number of nearest neighbours (default: 6, or as many as there can be)")
+  app.add_option("-K,--neighbours", job.neighbours,
+                 "Number of nearest neighbours (default: 6, or as many as there can be)")
       ->check(finite_number());
-  parameter->add_option("--sigma2", job.variance,
-                        "Variance of the Gaussian kernel (default: the median squared distance)")
+  app.add_option("--sigma2", job.variance,
+                 "Variance of the Gaussian kernel (default: the median squared distance)")
       ->check(finite_number());
-  parameter->add_option("--degree", job.degree, "Degree of the polynomial kernel (default: 2)")
+  app.add_option("--degree", job.degree, "Degree of the polynomial kernel (default: 2)")
       ->check(finite_number());
+  exclude_one_another(app, {"--parameter", "--neighbours", "--sigma2", "--degree"});
   app.add_option("--references", job.references,
                  "Landmark ISOMAP and landmark MVU: number of reference landmarks, which determine the "
                  "others (default: 200 and 20; all if there are fewer)")

@@ -256,37 +256,36 @@ Action history_command(CLI::App& app) {
   app.add_option("STORE", arguments->store, "Folder of the history, the --store of nightly")
       ->required()
       ->check(names_folder());
-  auto* what = app.add_option_group("what");
-  what->add_option(
+  app.add_option(
       "--prune", arguments->prune,
       "Remove all nightly runs except the last N, those whose number K divides, the pinned ones "
       "and their reference runs: last=N,every=K");
-  what->add_option("--export", arguments->format,
-                   "Every value of every nightly run, to standard output")
+  app.add_option("--export", arguments->format,
+                 "Every value of every nightly run, to standard output")
       ->transform(one_of({"csv", "json"}));
-  what->add_option("--pin", arguments->pin, "Compare with this nightly run from now on")
+  app.add_option("--pin", arguments->pin, "Compare with this nightly run from now on")
       ->check(above_zero());
   const auto add_note = [&](const char* option, std::vector<std::string>& words, const char* text) {
-    what->add_option(option, words, text)->expected(2)->type_name("N TEXT");
+    app.add_option(option, words, text)->expected(2)->type_name("N TEXT");
   };
   add_note("--note", arguments->note,
            "Keep a text with nightly run N, or with finding K of it: N.K");
   add_note("--known", arguments->known,
            "Mark the findings of nightly run N, or finding N.K, as known, with a text");
   add_note("--accept", arguments->accept, "Pin nightly run N, with a text");
-  what->add_option("--from", arguments->decisions,
-                   "Take the decisions in a file that the index page saved")
+  app.add_option("--from", arguments->decisions,
+                 "Take the decisions in a file that the index page saved")
       ->type_name("FILE");
-  what->add_option("--compare", arguments->compare,
-                   "Compare nightly runs A and B study by study, and write a page of each")
+  app.add_option("--compare", arguments->compare,
+                 "Compare nightly runs A and B study by study, and write a page of each")
       ->expected(2)
       ->type_name("A B")
       ->check(above_zero());
-  what->add_flag("--verify", arguments->verify, "Check the history and every figure's bytes");
-  what->require_option(0, 1);
-  group_options(app, {{"Task",
-                       {"--prune", "--export", "--pin", "--note", "--known", "--accept", "--from",
-                        "--compare", "--verify"}}});
+  app.add_flag("--verify", arguments->verify, "Check the history and every figure's bytes");
+  const std::vector<std::string> tasks = {"--prune",  "--export", "--pin",     "--note",  "--known",
+                                          "--accept", "--from",   "--compare", "--verify"};
+  exclude_one_another(app, tasks);
+  group_options(app, {{"Task", tasks}});
   return [arguments](const Invocation& invocation) { return history_of(*arguments, invocation); };
 }
 

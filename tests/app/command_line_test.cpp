@@ -133,6 +133,8 @@ TEST(CommandLine, TheTextOfANoteAndTheArgumentsOfACheckedCommandMayBeEmpty) {
     EXPECT_EQ(mapproof({"history", folder / "none", option, "", "text"}).error,
               refusal_of_empty("history", option));
   }
+  EXPECT_EQ(mapproof({"map", "x", "", "--out", folder / "out"}).error,
+            "mapproof: map takes no \"\"; \"mapproof help map\" shows what it takes\n");
   write_file(folder / "baseline/a.txt", "");
   const std::string marked = folder / "marked";
   mapproof({"check", "--baseline", folder / "baseline", "--out", folder / "out", "--", "sh", "-c",

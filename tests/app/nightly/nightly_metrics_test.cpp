@@ -244,6 +244,17 @@ TEST(NightlyMetrics, ThatAreKnownFailNoNightlyRunUntilTheyGetWorse) {
   EXPECT_EQ(project.nightly(20.0).exit_code, 1) << "it got worse";
 }
 
+TEST(NightlyMetrics, AreNotKnownAnyMoreAfterAnEmptyText) {
+  const Project project;
+  ASSERT_EQ(project.regress().exit_code, 1);
+  for (const std::string text : {"bigger input", ""}) {
+    const Outcome known = mapproof({"history", project.store(), "--known", "6.1", text});
+    EXPECT_EQ(known.exit_code, 0) << known.error;
+    const json history = json::parse(mapproof({"history", project.store(), "--json"}).out);
+    EXPECT_EQ(history["notes"].empty(), text.empty()) << history["notes"];
+  }
+}
+
 TEST(NightlyMetrics, AreAcceptedByTheFileOfThePage) {
   const Project project;
   ASSERT_EQ(project.regress().exit_code, 1);
