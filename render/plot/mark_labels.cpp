@@ -1,8 +1,15 @@
 #include "render/plot/mark_labels.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "core/base/not_finite.hpp"
 #include "render/plot/outlines.hpp"
@@ -14,6 +21,14 @@ namespace {
 constexpr int kDirections = 16;
 constexpr int kRings = 14;
 constexpr double kMostOfFrame = 0.35;  // Of its width, for a label.
+constexpr int kMostOrders = 8;         // In which labels are tried to be placed.
+
+/// A label without its place.
+struct Label {
+  Point at;  ///< What it is a label of.
+  TextLine line;
+  Point size;  ///< With a gap around.
+};
 
 struct LabelBox {
   Box box;
@@ -65,6 +80,13 @@ struct Surroundings {
   Box frame;
   Obstacles taken;
   std::vector<Box> texts = {};
+
+  /// Whether a label has room there: beside other texts that of a word space, too.
+  bool has_room(const Box& box, double word_space) const {
+    const Box spaced{box.x0 - word_space, box.y0, box.x1 + word_space, box.y1};
+    return frame.holds(box) && !taken.hit(box) &&
+           std::ranges::none_of(texts, [&](const Box& text) { return text.overlaps(spaced); });
+  }
 };
 
 /// A free box: in the innermost ring that has one the first from the right; farther out the one
@@ -80,7 +102,7 @@ std::optional<LabelBox> find_free_box(Point at, Point size, const Surroundings& 
       // 0, -1, 1, -2, 2, …: from the right outward to both sides.
       const int step = turn % 2 == 0 ? turn / 2 : -(turn + 1) / 2;
       const Box box = beside(at, radius, step * 2.0 * std::numbers::pi / kDirections, size);
-      if (!around.frame.holds(box) || around.taken.hit(box)) continue;
+      if (!around.has_room(box, 0.3 * theme.tick_font_pt)) continue;
       if (ring == 0) return LabelBox{box, false};
       const auto crossed = leader_cost(box, at, around.taken, around.texts);
       if (!crossed || ring + 1.5 * *crossed >= best_cost) continue;
@@ -104,19 +126,16 @@ std::vector<Box> texts_in(const Panel& panel, const PanelMap& map, const Theme& 
   return boxes;
 }
 
-}  // namespace
-
-void draw_mark_labels(const AxesLayout& layout, std::size_t panel_index, const Box& frame,
-                      Obstacles taken, Drawing& drawing) {
+/// The labels of a panel, in order, as far as their points are drawn.
+std::vector<Label> labels_in(const AxesLayout& layout, const Box& frame, double gap) {
   const Theme& theme = layout.theme();
   const PanelMap map = layout.map(frame);
   const double em = theme.tick_font_pt;
-  const double gap = 0.25 * theme.space_pt;
-  Surroundings around{frame.grown(-gap), std::move(taken), texts_in(layout.panel(), map, theme)};
   std::vector<std::string> names;
   for (const Layer& layer : layout.panel().layers)
     if (const auto* labels = std::get_if<PointLabels>(&layer))
       names.insert(names.end(), labels->text.begin(), labels->text.end());
+  std::vector<Label> found;
   for (const Layer& layer : layout.panel().layers) {
     const auto* labels = std::get_if<PointLabels>(&layer);
     if (labels == nullptr) continue;
@@ -129,20 +148,79 @@ void draw_mark_labels(const AxesLayout& layout, std::size_t panel_index, const B
                     .colour = theme.of(labels->colour)};
       if (line.shaped.text != labels->text[i]) line.whole = labels->text[i];
       const Box bounds = line.shaped.bounds;
-      const Point size{bounds.width() * em + 2 * gap, bounds.height() * em + 2 * gap};
-      const auto position = find_free_box(at, size, around, theme);
-      if (!position) continue;
-      line.at = {position->box.x0 + gap - bounds.x0 * em, position->box.y0 + gap - bounds.y0 * em};
-      if (position->far) {
-        Shape leader = leader_line(at, nearest_in(position->box.grown(-0.5 * gap), at), theme);
-        around.taken.lines.push_back(
-            {leader.path.points[0], leader.path.points[1], theme.hairline_pt});
-        drawing.add(ItemClass::kLeader, panel_index, std::move(leader)).clipped = true;
-      }
-      around.taken.boxes.push_back(position->box);
-      around.texts.push_back(position->box);
-      drawing.add(ItemClass::kMarkLabel, panel_index, std::move(line));
+      found.push_back(
+          {at, std::move(line), {bounds.width() * em + 2 * gap, bounds.height() * em + 2 * gap}});
     }
+  }
+  return found;
+}
+
+/// A label and its leader, where it has been placed.
+struct PlacedLabel {
+  LabelBox place;
+  std::optional<Shape> leader = {};
+};
+
+/// Places labels one after the other. @return By label; none for one that fits nowhere.
+std::vector<std::optional<PlacedLabel>> placed_in_order(const std::vector<Label>& labels,
+                                                        const std::vector<std::size_t>& order,
+                                                        Surroundings around, double gap,
+                                                        const Theme& theme) {
+  std::vector<std::optional<PlacedLabel>> placed(labels.size());
+  for (const std::size_t i : order) {
+    const Point at = labels[i].at;
+    const auto place = find_free_box(at, labels[i].size, around, theme);
+    if (!place) continue;
+    placed[i] = PlacedLabel{*place};
+    if (place->far) {
+      placed[i]->leader = leader_line(at, nearest_in(place->box.grown(-0.5 * gap), at), theme);
+      const std::vector<Point>& ends = placed[i]->leader->path.points;
+      around.taken.lines.push_back({ends[0], ends[1], theme.hairline_pt});
+    }
+    around.taken.boxes.push_back(place->box);
+    around.texts.push_back(place->box);
+  }
+  return placed;
+}
+
+/// Places labels in their order; as long as this leaves fewer of them out, those that were left out
+/// are placed first.
+std::vector<std::optional<PlacedLabel>> placed(const std::vector<Label>& labels,
+                                               const Surroundings& around, double gap,
+                                               const Theme& theme) {
+  std::vector<std::size_t> order(labels.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto left_out = [](const auto& all) {
+    return std::ranges::count_if(all, [](const auto& one) { return !one; });
+  };
+  auto best = placed_in_order(labels, order, around, gap, theme);
+  for (int tried = 1; tried < kMostOrders && left_out(best) > 0; ++tried) {
+    std::ranges::stable_partition(order, [&](std::size_t i) { return !best[i]; });
+    auto next = placed_in_order(labels, order, around, gap, theme);
+    if (left_out(next) >= left_out(best)) break;
+    best = std::move(next);
+  }
+  return best;
+}
+
+}  // namespace
+
+void draw_mark_labels(const AxesLayout& layout, std::size_t panel_index, const Box& frame,
+                      Obstacles taken, Drawing& drawing) {
+  const Theme& theme = layout.theme();
+  const double gap = 0.25 * theme.space_pt;
+  const Surroundings around{frame.grown(-gap), std::move(taken),
+                            texts_in(layout.panel(), layout.map(frame), theme)};
+  std::vector<Label> labels = labels_in(layout, frame, gap);
+  const auto places = placed(labels, around, gap, theme);
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (!places[i]) continue;
+    TextLine& line = labels[i].line;
+    const Box &box = places[i]->place.box, bounds = line.shaped.bounds;
+    line.at = {box.x0 + gap - bounds.x0 * line.size, box.y0 + gap - bounds.y0 * line.size};
+    if (const auto& leader = places[i]->leader)
+      drawing.add(ItemClass::kLeader, panel_index, *leader).clipped = true;
+    drawing.add(ItemClass::kMarkLabel, panel_index, std::move(line));
   }
 }
 

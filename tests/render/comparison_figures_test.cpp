@@ -379,6 +379,36 @@ TEST(ParetoFigure, IsMarkedAsVarying) {
   EXPECT_THROW(pareto_figure(spec), InvalidInput);
 }
 
+TEST(ParetoFigure, NamesEverySettingInAColumnOfAJournalWithRoomBetweenNames) {
+  // Of the reproduction of Yairi 2007, visibility: in order of the marks, LLE has no room.
+  const ParetoSpec spec{.id = "cost",
+                        .title = "Cost",
+                        .settings = {{"LPCA", 0.188e-3, 0.9665},
+                                     {"SMACOF, equal weights", 1.58e-3, 0.3034},
+                                     {"SMACOF, kNN weights, K = 7", 1.716e-3, 0.1572},
+                                     {"KPCA, Gaussian, σ² = 5", 0.194e-3, 0.9732},
+                                     {"KPCA, polynomial, d = 2", 0.223e-3, 1.0142},
+                                     {"ISOMAP, K = 7", 0.348e-3, 0.1838},
+                                     {"LLE, K = 8", 0.416e-3, 0.205},
+                                     {"LEM, K = 8", 0.245e-3, 0.3763},
+                                     {"HLLE, K = 9", 0.788e-3, 0.226},
+                                     {"SDE, K = 5", 43.83e-3, 0.161}},
+                        .untimed = {},
+                        .record_ids = {}};
+  const Theme theme = paper_theme(3.25);
+  const Drawing drawing = lay_out(pareto_figure(spec), theme);
+  std::vector<Box> names;
+  for (const TextLine& line : texts_of(drawing, ItemClass::kMarkLabel))
+    names.push_back(text_box(line));
+  EXPECT_EQ(names.size(), spec.settings.size());
+  for (std::size_t i = 0; i < names.size(); ++i)
+    for (std::size_t j = i + 1; j < names.size(); ++j) {
+      const double space = 0.29 * theme.tick_font_pt;
+      const Box spaced{names[i].x0 - space, names[i].y0, names[i].x1 + space, names[i].y1};
+      EXPECT_FALSE(spaced.overlaps(names[j])) << i << " and " << j;
+    }
+}
+
 TEST(IdeaFigure, ShowsRoomHistoryAndMapWithArrowsBetween) {
   const IdeaSpec spec = sample_idea(Sensor::kVisibility);
   const Figure figure = idea_figure(spec);

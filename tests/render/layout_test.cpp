@@ -15,6 +15,8 @@
 #include "render/plot/axis_map.hpp"
 #include "render/plot/layers.hpp"
 #include "tests/support/images/figure_checks.hpp"
+#include "tests/support/samples/drawn_panels.hpp"
+#include "tests/support/samples/sample_comparisons.hpp"
 #include "tests/support/samples/sample_figures.hpp"
 
 namespace mapproof::test {
@@ -25,13 +27,6 @@ Figure with_panels(std::size_t count) {
   figure.id = "test";
   figure.panels.resize(count);
   return figure;
-}
-
-std::vector<TextLine> texts_of(const Drawing& drawing, ItemClass item_class) {
-  std::vector<TextLine> lines;
-  for (const Item& item : drawing.items)
-    if (item.item_class == item_class) lines.push_back(std::get<TextLine>(item.what));
-  return lines;
 }
 
 bool legend_is_inside(const Drawing& drawing) {

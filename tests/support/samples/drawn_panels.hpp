@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "render/plot/drawing.hpp"
 #include "render/plot/figure.hpp"
 
 namespace mapproof::test {
@@ -25,6 +26,14 @@ std::optional<Kind> labelled(const Panel& panel, const std::string& label) {
   for (const Kind& layer : layers_of<Kind>(panel))
     if (layer.label == label) return layer;
   return std::nullopt;
+}
+
+/// The texts of one class in a drawing, in order.
+inline std::vector<TextLine> texts_of(const Drawing& drawing, ItemClass item_class) {
+  std::vector<TextLine> lines;
+  for (const Item& item : drawing.items)
+    if (item.item_class == item_class) lines.push_back(std::get<TextLine>(item.what));
+  return lines;
 }
 
 inline bool contains(const std::string& text, const std::string& part) {
