@@ -221,8 +221,7 @@ function placeThumbnails() {
   if (narrowPage.matches) return;
   const count = items.length, kSlack_px = 4;
   const foot = figure?.getBoundingClientRect().bottom ?? 0;
-  const columnsOf = (box) => Math.max(1, Math.round(box.clientWidth / kThumbnail_px));
-  const most = columnsOf(beside);
+  const most = Math.max(1, Math.round(beside.clientWidth / kThumbnail_px));
   for (let columns = 1; columns <= most && columns <= count; ++columns) {
     if (fits(toSide, columns, foot + kSlack_px)) return;
   }
@@ -240,7 +239,8 @@ function placeThumbnails() {
   };
   let best = seenAt(toSide, most);
   if (figure) {
-    const under = seenAt((each) => figure.parentElement.append(each), columnsOf(figure));
+    const wide = Math.max(1, Math.floor(figure.clientWidth / kThumbnail_px));
+    const under = seenAt((each) => figure.parentElement.append(each), wide);
     if (under.seen.length > best.seen.length) best = under;
   }
   if (best.seen.length === 0) best = seenAt(toSide, most + 1);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/error_text.hpp"
 #include "render/figures/maps/pair_distances.hpp"
 #include "render/plot/layout.hpp"
 #include "tests/support/samples/drawn_panels.hpp"
@@ -39,6 +40,29 @@ TEST(PublishedErrorsFigure, FillsThoseOutsideOurInterval) {
   EXPECT_EQ(drawn["published, outside the interval"], std::vector<double>{0.41});
   EXPECT_EQ(drawn["published, not comparable"], std::vector<double>{0.9});
   EXPECT_EQ(drawn["ours"].size(), methods.size());
+}
+
+TEST(PublishedErrorsFigure, DoesNotWidenItsAxisByWhatDiverged) {
+  const std::vector<PublishedError> methods = {{.label = "ISOMAP",
+                                                .key = "a",
+                                                .mean_m = 0.2,
+                                                .interval = Range{0.1, 0.3},
+                                                .published_m = 0.3},
+                                               {.label = "LLE",
+                                                .key = "b",
+                                                .mean_m = 4e5,
+                                                .interval = Range{100.0, 8e5},
+                                                .published_m = 0.5}};
+  const Figure figure =
+      published_errors_figure({"published", {{"Bearing maps", "Table 1", methods}}, {"run"}});
+  const Range limits = figure.panels[0].x.limits.value();
+  EXPECT_LT(limits.high, 1.0);
+  EXPECT_EQ(labelled<Segments>(figure.panels[0], "95 % interval").value().x0.size(), 1U);
+  const Scatter diverged = labelled<Scatter>(figure.panels[0], kGreatErrorText).value();
+  ASSERT_EQ(diverged.x.size(), 1U);
+  EXPECT_LT(diverged.x[0], limits.high);
+  EXPECT_TRUE(notes_contain(figure, "Diverged, over 1\u00A0km: LLE."));
+  EXPECT_TRUE(contains(figure.alt, "LLE over 1\u00A0km (published 0.500)")) << figure.alt;
 }
 
 TEST(CriticalDifferenceFigure, PutsEachMethodAtItsMeanRankTheBetterHalfToTheLeft) {

@@ -1,7 +1,10 @@
 #include "render/figures/diagrams/value_dots.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
+#include "core/base/text/error_text.hpp"
 #include "render/plot/layout.hpp"
 #include "tests/support/images/figure_checks.hpp"
 
@@ -46,17 +49,55 @@ TEST(ValueDots, AreOnALogarithmicAxisIfTheySpanMuch) {
   EXPECT_EQ(value_dots_figure(spec).panels[0].x.scale, Scale::kLog);
 }
 
+/// B diverged in one of three runs, C in all of them.
+ValueDotsSpec with_diverged() {
+  ValueDotsSpec spec = three_methods();
+  spec.panels[0].methods[1].runs = {0.2, 0.3, 5e4};
+  spec.panels[0].methods.push_back({"C", "d", 3, 2e6, {1e6, 2e6, 3e6}});
+  return spec;
+}
+
+TEST(ValueDots, SayInANoteWhatDivergedAndHaveATriangleForItAtTheEndOfTheirAxis) {
+  const Figure figure = value_dots_figure(with_diverged());
+  const Panel& panel = figure.panels[0];
+  EXPECT_EQ(panel.y.names, (std::vector<std::string>{"C", "B", "A"}));
+  EXPECT_EQ(panel.x.scale, Scale::kLinear);
+  ASSERT_TRUE(panel.x.limits);
+  EXPECT_LT(panel.x.limits->high, 1.0);
+  ASSERT_EQ(figure.notes.size(), 1U);
+  EXPECT_EQ(figure.notes[0].text, "Diverged, over 1\u00A0km: B in 1 of 3 runs and C.");
+  std::vector<double> rows;
+  for (const Layer& layer : panel.layers) {
+    const auto& dots = std::get<Scatter>(layer);
+    EXPECT_LT(std::ranges::max(dots.x), panel.x.limits->high);
+    if (dots.label == kGreatErrorText) rows.push_back(dots.y.at(0));
+  }
+  EXPECT_EQ(rows, (std::vector<double>{0.0, 1.0}));
+  EXPECT_NE(figure.alt.find("C over 1\u00A0km"), std::string::npos) << figure.alt;
+}
+
+TEST(ValueDots, HaveAllValuesOnTheirAxisWhereAllAreThatLargeOrNoneDiverges) {
+  ValueDotsSpec spec = with_diverged();
+  spec.great_errors = false;
+  EXPECT_FALSE(value_dots_figure(spec).panels[0].x.limits);
+  EXPECT_TRUE(value_dots_figure(spec).notes.empty());
+  spec = with_diverged();
+  spec.panels[0].methods.erase(spec.panels[0].methods.begin(), spec.panels[0].methods.begin() + 3);
+  EXPECT_FALSE(value_dots_figure(spec).panels[0].x.limits);
+}
+
 TEST(ValueDots, AreSaidInWords) {
   EXPECT_EQ(value_dots_figure(three_methods()).alt,
             "A has the lowest MPE. A 0.100\u00A0m; B 0.300\u00A0m.");
 }
 
 TEST(ValueDots, AreCleanOnPagesOfAllKinds) {
-  ValueDotsSpec spec = three_methods();
-  spec.panels.push_back(spec.panels[0]);
-  for (const Theme& theme : {report_theme(), dark_theme(), paper_theme(3.25)})
-    for (const std::string& flaw : flaws(lay_out(value_dots_figure(spec), theme)))
-      ADD_FAILURE() << theme.name << ": " << flaw;
+  for (ValueDotsSpec spec : {three_methods(), with_diverged()}) {
+    spec.panels.push_back(spec.panels[0]);
+    for (const Theme& theme : {report_theme(), dark_theme(), paper_theme(3.25)})
+      for (const std::string& flaw : flaws(lay_out(value_dots_figure(spec), theme)))
+        ADD_FAILURE() << theme.name << ": " << flaw;
+  }
 }
 
 }  // namespace

@@ -361,6 +361,31 @@ TEST(ResultsFigures, WhatDivergedSpoilsNeitherTitleNorAxis) {
   }
 }
 
+TEST(ResultsFigures, WhatDivergedWidensNoAxisOfDots) {
+  Rows few, sets;
+  for (const std::string run : {"a1", "b1", "c1"}) {
+    const double some = 0.1 + 0.01 * (run[0] - 'a');
+    for (Rows* rows : {&few, &sets})
+      rows->add("ekf", run, some).add("graph", run, 2.0 * some).add("odometry", run, 1e6 * some);
+  }
+  ResultsStudy of_sets = sets.study(false);
+  of_sets.runs = {{"a1", "a1"}, {"b1", "b1"}, {"c1", "c1"}};
+  for (const ResultsStudy& study : {few.study(), of_sets}) {
+    const ResultsView view(study);
+    const Figure figure = results_figures(view, {}).groups.at(0).figures.at(0);
+    const Panel& panel = figure.panels.at(0);
+    const Axis& axis = study.results.are_repeats ? panel.x : panel.y;
+    ASSERT_TRUE(axis.limits) << figure.title;
+    EXPECT_LT(axis.limits->high, 1.0);
+    ASSERT_FALSE(figure.notes.empty()) << figure.title;
+    EXPECT_EQ(figure.notes.back().text, "Diverged, over 1\u00A0km: odometry.");
+    EXPECT_EQ(figure.title.find("e+"), std::string::npos) << figure.title;
+    EXPECT_EQ(figure.title.ends_with("between 0.110\u00A0m and 0.220\u00A0m"),
+              study.results.are_repeats)
+        << figure.title;
+  }
+}
+
 TEST(ResultsFigures, TitlesJudgeAsThePairedTestsOfTheSentences) {
   // Runs differ far more than methods do; "graph" is the better one in every other run.
   const auto study_of = [](const std::vector<std::string>& methods) {

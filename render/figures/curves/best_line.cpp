@@ -15,6 +15,7 @@
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
+#include "render/figures/curves/diverged.hpp"
 #include "render/plot/short_names.hpp"
 
 namespace mapproof {
@@ -247,7 +248,7 @@ std::string places(const LineAxis& axis, const std::vector<double>& some, std::s
 }  // namespace
 
 bool LineQuantity::has_diverged(double value) const {
-  return great_errors && value > greatest_error(unit);
+  return value > divergence_in(unit, great_errors);
 }
 
 std::string x_text(const LineAxis& axis, double x, const LineQuantity& quantity) {

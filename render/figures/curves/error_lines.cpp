@@ -14,6 +14,7 @@
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/base/span.hpp"
+#include "render/figures/curves/diverged.hpp"
 #include "render/plot/layers.hpp"
 
 namespace mapproof {
@@ -60,19 +61,16 @@ void append(std::vector<double>& all, const std::vector<double>& some) {
   all.insert(all.end(), some.begin(), some.end());
 }
 
-/// Above which a mean is that of a map that diverged; infinite if none can be.
 double divergence_of(const ErrorLinesSpec& spec) {
-  return spec.great_errors ? greatest_error(line_axis(spec.y_label).unit) : kInfinity;
+  return divergence_in(line_axis(spec.y_label).unit, spec.great_errors);
 }
 
 /// The ceiling of the spec, and not above what diverged unless all means did.
 double ceiling_of(const ErrorLinesSpec& spec) {
-  const double divergence = divergence_of(spec);
+  std::vector<double> means;
   for (const ErrorPanel& panel : spec.panels)
-    for (const ErrorLine& line : panel.lines)
-      if (std::ranges::any_of(line.mean, [&](double mean) { return mean <= divergence; }))
-        return std::min(spec.ceiling, divergence);
-  return spec.ceiling;
+    for (const ErrorLine& line : panel.lines) append(means, line.mean);
+  return std::min(spec.ceiling, axis_ceiling(means, divergence_of(spec)));
 }
 
 /// NaN where the mean lies above the ceiling: the band towards it would fill the frame.
@@ -152,8 +150,8 @@ void note_beyond(const ErrorLinesSpec& spec, const ErrorAxis& axis, Figure& figu
   note_count(below, "interval", "end", "below", figure);
 }
 
-/// Names the lines that diverged.
-void note_diverged(const ErrorLinesSpec& spec, Figure& figure) {
+/// By line.
+std::vector<DivergedCount> count_diverged(const ErrorLinesSpec& spec) {
   std::vector<DivergedCount> counts;
   const double divergence = divergence_of(spec);
   for (const ErrorPanel& panel : spec.panels)
@@ -162,8 +160,7 @@ void note_diverged(const ErrorLinesSpec& spec, Figure& figure) {
       if (count == counts.end()) count = counts.insert(count, {.label = line.label});
       for (const double mean : line.mean) count->see(mean, divergence);
     }
-  if (std::string text = diverged_text(counts, "at", "points"); !text.empty())
-    figure.notes.push_back({std::move(text), ThemeColour::kMuted});
+  return counts;
 }
 
 /// @param divergence  Above which the number says nothing.
@@ -323,26 +320,6 @@ std::size_t series_of_setting(std::size_t series, std::size_t k) {
   return series + kSeriesCount * kDashes.size() * k;
 }
 
-void DivergedCount::see(double value, double divergence) {
-  if (!std::isfinite(value)) return;
-  ++known;
-  diverged += value > divergence ? 1 : 0;
-}
-
-std::string diverged_text(const std::vector<DivergedCount>& counts, std::string_view preposition,
-                          std::string_view of) {
-  constexpr std::size_t kMostNamed = 4;
-  std::vector<std::string> words;
-  for (const auto& [label, diverged, known] : counts)
-    if (diverged > 0)
-      words.push_back(diverged == known ? label
-                                        : fmt::format("{} {} {} of {} {}", label, preposition,
-                                                      diverged, known, of));
-  return words.empty()
-             ? ""
-             : fmt::format("Diverged, {}: {}.", kGreatErrorText, listed(words, kMostNamed));
-}
-
 std::vector<std::size_t> free_series(const std::vector<std::size_t>& taken, std::size_t count,
                                      std::size_t from) {
   std::vector<std::size_t> free;
@@ -426,7 +403,7 @@ Figure error_lines_figure(const ErrorLinesSpec& spec) {
   figure.alt = spec.alt.empty() ? alt_of(spec, axis) : spec.alt;
   figure.notes = spec.notes;
   note_beyond(spec, axis, figure);
-  note_diverged(spec, figure);
+  note_diverged(count_diverged(spec), "at", "points", figure.notes);
   const Builder builder(spec, axis, ceiling);
   for (std::size_t i = 0; i < spec.panels.size(); ++i) figure.panels.push_back(builder.panel(i));
   if (labels_of(spec).labels.empty())

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/base/not_finite.hpp"
@@ -92,26 +91,10 @@ struct ErrorLinesSpec {
   double ceiling = kInfinity;  ///< Means above do not widen the
                                ///< frame; a note counts them.
   double log_from = 20.0;      ///< Greatest over least mean from which the y axis is logarithmic.
-  /// Whether values above greatest_error() are of maps that diverged: unless all are, the ceiling
-  /// is not above it. A note names their lines, and pages say so in words.
+  /// Whether values above greatest_error() are of maps that diverged (see diverged.hpp), and pages
+  /// say so in words.
   bool great_errors = true;
 };
-
-/// How many of the values under one label are of maps that diverged.
-struct DivergedCount {
-  std::string label;
-  std::ptrdiff_t diverged = 0;
-  std::ptrdiff_t known = 0;
-
-  /// @param divergence  Above which a value is one that diverged.
-  void see(double value, double divergence);
-};
-
-/// "Diverged, over 1 km: A at 1 of 4 points and B.": a figure's note; empty if none did.
-/// @param preposition  Before "1 of 4".
-/// @param of           What are counted, more than one.
-std::string diverged_text(const std::vector<DivergedCount>& counts, std::string_view preposition,
-                          std::string_view of);
 
 /// The styles that mapproof's own methods have, see method_series(): 0 to this, exclusive.
 inline constexpr std::size_t kMethodStyles = 10;

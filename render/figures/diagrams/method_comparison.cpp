@@ -7,9 +7,11 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/error_text.hpp"
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "core/statistics/nemenyi.hpp"
+#include "render/figures/curves/diverged.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/layer_shapes.hpp"
 #include "render/figures/unit_scale.hpp"
@@ -57,16 +59,45 @@ std::string note_of(const PublishedAgreement& all) {
 }
 
 Mark mark_of(const PublishedError& method, std::size_t panel, const char* whose, double error_m) {
-  return {fmt::format("{}-{}-{}", whose, panel, method.key),
-          {{"method", method.label}, {"mpe", data_number(error_m)}}};
+  Mark mark{fmt::format("{}-{}-{}", whose, panel, method.key),
+            {{"method", method.label}, {"mpe", data_number(error_m)}}};
+  if (error_m > kGreatestError_m) mark.data.emplace_back("x", kGreatErrorText);
+  return mark;
 }
 
-void add_panel(Figure& figure, const PublishedErrorsSpec::Sensor& sensor) {
+/// The errors of all sensors, ours with their intervals up to where maps diverge, if these did not.
+std::vector<double> errors_of(const PublishedErrorsSpec& spec) {
+  std::vector<double> errors;
+  for (const PublishedErrorsSpec::Sensor& sensor : spec.sensors)
+    for (const PublishedError& method : drawn_methods(sensor)) {
+      errors.push_back(method.mean_m);
+      if (method.published_m) errors.push_back(*method.published_m);
+      const bool has_diverged = method.mean_m > kGreatestError_m;
+      if (has_diverged || !method.interval || !is_drawn(method.interval->low)) continue;
+      for (const double end : {method.interval->low, method.interval->high})
+        errors.push_back(std::min(end, kGreatestError_m));
+    }
+  return errors;
+}
+
+/// By method and sensor, of ours.
+std::vector<DivergedCount> count_diverged(const PublishedErrorsSpec& spec) {
+  std::vector<DivergedCount> counts;
+  for (const PublishedErrorsSpec::Sensor& sensor : spec.sensors)
+    for (const PublishedError& method : sensor.methods) {
+      auto count = std::ranges::find(counts, method.label, &DivergedCount::label);
+      if (count == counts.end()) count = counts.insert(count, {.label = method.label});
+      count->see(method.mean_m, kGreatestError_m);
+    }
+  return counts;
+}
+
+void add_panel(Figure& figure, const PublishedErrorsSpec::Sensor& sensor, const DotAxis& axis) {
   const std::vector<PublishedError> methods = drawn_methods(sensor);
   const std::size_t number = figure.panels.size();
   Panel& panel = figure.panels.emplace_back();
   panel.title = sensor.title;
-  panel.x = {.label = "MPE [m]", .scale = Scale::kLog};
+  panel.x = {.label = "MPE [m]", .scale = Scale::kLog, .limits = axis.limits};
   panel.y = {.label = ""};
   panel.y.limits = Range{-0.6, std::max(1.0, static_cast<double>(methods.size())) - 0.4};
   Segments intervals{.label = "95 % interval", .colour = ThemeColour::kSeries1, .width = 2.5};
@@ -81,22 +112,26 @@ void add_panel(Figure& figure, const PublishedErrorsSpec::Sensor& sensor) {
   outside.filled = true;
   apart.label = "published, not comparable";
   apart.colour = ThemeColour::kMuted;
+  Scatter diverged = diverged_dots(ours.colour);
   for (std::size_t i = 0; i < methods.size(); ++i) {
     const PublishedError& method = methods[i];
     const double y = static_cast<double>(i);
     panel.y.names.push_back(printable(method.label, kLongestMethodLabel));
-    if (method.interval && is_drawn(method.interval->low)) {
+    const bool has_diverged = method.mean_m > axis.ceiling;
+    if (method.interval && is_drawn(method.interval->low) && !has_diverged) {
       add_line(intervals, {method.interval->low, y}, {method.interval->high, y});
       intervals.marks.push_back({"", {{"method", method.label}, {"kind", "interval"}}});
     }
-    add_point(ours, {method.mean_m, y});
-    ours.marks.push_back(mark_of(method, number, "ours", method.mean_m));
+    Scatter& mean = has_diverged ? diverged : ours;
+    add_point(mean, {axis.place_of(method.mean_m), y});
+    mean.marks.push_back(mark_of(method, number, "ours", method.mean_m));
     if (!method.published_m) continue;
     Scatter& theirs = !method.can_compare ? apart : is_outside(method) ? outside : published;
-    add_point(theirs, {*method.published_m, y});
+    add_point(theirs, {axis.place_of(*method.published_m), y});
     theirs.marks.push_back(mark_of(method, number, "published", *method.published_m));
   }
-  panel.layers = {intervals, published, outside, apart, ours};  // Ours show in open diamonds.
+  // Ours show in open diamonds.
+  panel.layers = {intervals, published, outside, apart, ours, diverged};
   std::erase_if(panel.layers, is_empty);
 }
 
@@ -334,14 +369,18 @@ Figure published_errors_figure(const PublishedErrorsSpec& spec) {
   figure.title = title_of(agreement);
   if (const std::string note = note_of(agreement); !note.empty()) figure.notes.push_back({note});
   figure.record_ids = spec.record_ids;
+  note_diverged(count_diverged(spec), "with", "sensors", figure.notes);
+  const DotAxis axis = dot_axis(errors_of(spec), Scale::kLog, kGreatestError_m);
   std::vector<std::string> sources, errors;
   for (const PublishedErrorsSpec::Sensor& sensor : spec.sensors) {
-    add_panel(figure, sensor);
+    add_panel(figure, sensor, axis);
     sources.push_back(sensor.source);
     for (const PublishedError& method : sensor.methods)
       if (method.published_m)
-        errors.push_back(fmt::format("{} {} (published {})", method.label,
-                                     significant(method.mean_m), significant(*method.published_m)));
+        errors.push_back(fmt::format(
+            "{} {} (published {})", method.label,
+            method.mean_m > kGreatestError_m ? kGreatErrorText : significant(method.mean_m),
+            significant(*method.published_m)));
   }
   figure.caption = fmt::format(
       "Mean position error (MPE) of each method at its best parameter, with the 95 % interval of "

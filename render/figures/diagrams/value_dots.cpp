@@ -7,8 +7,10 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/error_text.hpp"
 #include "core/base/text/number_text.hpp"
 #include "render/base/span.hpp"
+#include "render/figures/curves/diverged.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/layer_shapes.hpp"
 
@@ -30,47 +32,107 @@ std::vector<MethodValue> rows_of(const ValueDotsPanel& panel, bool higher_is_bet
   return rows;
 }
 
-Scale scale_of(const ValueDotsSpec& spec) {
-  Span span;
+/// Calls `visit` with the row's label and the value, for each run of the figure, and for each value
+/// without runs.
+template <typename Visit>
+void for_each_run(const ValueDotsSpec& spec, const Visit& visit) {
   for (const ValueDotsPanel& panel : spec.panels)
     for (const MethodValue& method : panel.methods) {
-      span.see(method.value);
-      span.see(method.runs);
+      for (const double run : method.runs) visit(method.label, run);
+      if (method.runs.empty()) visit(method.label, method.value);
     }
+}
+
+double divergence_of(const ValueDotsSpec& spec) {
+  return divergence_in(spec.unit, spec.great_errors);
+}
+
+/// What all panels have in common.
+struct SharedAxis {
+  Scale scale = Scale::kLinear;
+  DotAxis dots;
+};
+
+SharedAxis axis_of(const ValueDotsSpec& spec) {
+  std::vector<double> values;
+  for_each_run(spec, [&](const std::string& /*label*/, double run) { values.push_back(run); });
+  Span span;
+  span.see(without_diverged(values, divergence_of(spec)));
   const bool is_wide = span.known() && span.low > 0.0 && span.high > kWideSpan * span.low;
-  return is_wide ? Scale::kLog : Scale::kLinear;
+  const Scale scale = is_wide ? Scale::kLog : Scale::kLinear;
+  return {scale, dot_axis(values, scale, divergence_of(spec))};
+}
+
+/// The runs of a row that are on the axis.
+Scatter runs_of(const MethodValue& method, double y, const DotAxis& axis) {
+  Scatter runs{.colour = series_style(method.series).colour,
+               .marker = Marker::kCircle,
+               .filled = false,
+               .size = 0.7};
+  for (const double run : method.runs) {
+    if (!std::isfinite(run) || run > axis.ceiling) continue;
+    add_point(runs, {run, y});
+    runs.marks.push_back(
+        {"", {{"method", method.label}, {"kind", "single runs"}, {"x", data_number(run)}}});
+  }
+  return runs;
+}
+
+/// The value of a row, or the triangle that stands for one that diverged.
+Scatter value_of(const MethodValue& method, double y, const DotAxis& axis, const std::string& id) {
+  const SeriesStyle style = series_style(method.series);
+  const bool diverged = method.value > axis.ceiling;
+  Scatter value = diverged ? diverged_dots(style.colour)
+                           : Scatter{.colour = style.colour,
+                                     .marker = style.marker,
+                                     .size = method.runs.empty() ? 1.0 : kSizeAmongRuns};
+  add_point(value, {axis.place_of(method.value), y});
+  value.marks.push_back(
+      {id,
+       {{"method", method.label}, {"x", diverged ? kGreatErrorText : data_number(method.value)}}});
+  return value;
+}
+
+/// A triangle for the runs of a row that diverged, unless that of its value stands for them, too.
+Scatter diverged_runs_of(const MethodValue& method, double y, const DotAxis& axis) {
+  Scatter runs = diverged_dots(series_style(method.series).colour);
+  const auto has_diverged = [&](double value) { return value > axis.ceiling; };
+  if (has_diverged(method.value) || std::ranges::none_of(method.runs, has_diverged)) return runs;
+  add_point(runs, {axis.end, y});
+  runs.marks.push_back(
+      {"", {{"method", method.label}, {"kind", "single runs"}, {"x", kGreatErrorText}}});
+  return runs;
 }
 
 /// @param prefix  Of the ids of marks.
-Panel panel_of(const ValueDotsPanel& from, const ValueDotsSpec& spec, const std::string& prefix) {
+Panel panel_of(const ValueDotsPanel& from, const ValueDotsSpec& spec, const SharedAxis& axis,
+               const std::string& prefix) {
   Panel panel;
   panel.title = from.title;
-  panel.x = {.label = spec.x_label, .scale = scale_of(spec)};
+  panel.x = {.label = spec.x_label, .scale = axis.scale, .limits = axis.dots.limits};
   const std::vector<MethodValue> rows = rows_of(from, spec.higher_is_better);
   panel.y.limits = Range{-0.6, std::max(1.0, static_cast<double>(rows.size())) - 0.4};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const MethodValue& method = rows[i];
     const double y = static_cast<double>(i);
-    const SeriesStyle style = series_style(method.series);
     panel.y.names.push_back(printable(method.label, kLongestName));
-    Scatter runs{.colour = style.colour, .marker = Marker::kCircle, .filled = false, .size = 0.7};
-    for (const double run : method.runs) {
-      if (!std::isfinite(run)) continue;
-      add_point(runs, {run, y});
-      runs.marks.push_back(
-          {"", {{"method", method.label}, {"kind", "single runs"}, {"x", data_number(run)}}});
-    }
-    if (!runs.x.empty()) panel.layers.emplace_back(std::move(runs));
-    Scatter value{.x = {method.value},
-                  .y = {y},
-                  .colour = style.colour,
-                  .marker = style.marker,
-                  .size = method.runs.empty() ? 1.0 : kSizeAmongRuns};
-    value.marks.push_back(
-        {prefix + method.key, {{"method", method.label}, {"x", data_number(method.value)}}});
-    panel.layers.emplace_back(std::move(value));
+    panel.layers.emplace_back(runs_of(method, y, axis.dots));
+    panel.layers.emplace_back(diverged_runs_of(method, y, axis.dots));
+    panel.layers.emplace_back(value_of(method, y, axis.dots, prefix + method.key));
   }
+  std::erase_if(panel.layers, is_empty);
   return panel;
+}
+
+/// How many runs of each method diverged.
+std::vector<DivergedCount> count_diverged(const ValueDotsSpec& spec) {
+  std::vector<DivergedCount> counts;
+  for_each_run(spec, [&](const std::string& label, double run) {
+    auto count = std::ranges::find(counts, label, &DivergedCount::label);
+    if (count == counts.end()) count = counts.insert(count, {.label = label});
+    count->see(run, divergence_of(spec));
+  });
+  return counts;
 }
 
 std::string alt_of(const ValueDotsSpec& spec) {
@@ -80,7 +142,10 @@ std::string alt_of(const ValueDotsSpec& spec) {
     std::ranges::reverse(rows);
     text += panel.title.empty() ? "" : " " + panel.title + ":";
     for (const MethodValue& method : rows)
-      text += fmt::format(" {} {};", method.label, quantity_text(method.value, spec.unit));
+      text +=
+          fmt::format(" {} {};", method.label,
+                      method.value > divergence_of(spec) ? kGreatErrorText
+                                                         : quantity_text(method.value, spec.unit));
     if (rows.empty()) text += " nothing;";
     text.back() = '.';
   }
@@ -97,10 +162,12 @@ Figure value_dots_figure(const ValueDotsSpec& spec) {
                 .record_ids = spec.record_ids,
                 .notes = {},
                 .panels = {}};
+  note_diverged(count_diverged(spec), "in", "runs", figure.notes);
+  const SharedAxis axis = axis_of(spec);
   for (std::size_t i = 0; i < spec.panels.size(); ++i) {
     const std::string prefix =
         spec.panels.size() == 1 ? "value-" : fmt::format("panel-{}-value-", i + 1);
-    figure.panels.push_back(panel_of(spec.panels[i], spec, prefix));
+    figure.panels.push_back(panel_of(spec.panels[i], spec, axis, prefix));
   }
   require_valid(figure);
   return figure;

@@ -31,14 +31,15 @@ struct ValueDotsSpec {
   std::string title = {};
   std::string caption = {};
   std::string x_label = {};  ///< "MPE [m]".
-  std::string unit = {};     ///< Of the values, in the alternative text.
+  std::string unit = {};     ///< Of the values.
   bool higher_is_better = false;
+  bool great_errors = true;  ///< As of ErrorLinesSpec.
   std::vector<ValueDotsPanel> panels = {};
   std::vector<std::string> record_ids = {};
 };
 
 /// Values of methods as dots, a row each, the best one uppermost; small circles for the runs. The
-/// axis is logarithmic where the values span widely.
+/// axis is logarithmic where the values span widely. Of what diverged see curves/diverged.hpp.
 Figure value_dots_figure(const ValueDotsSpec& spec);
 
 }  // namespace mapproof

@@ -12,11 +12,11 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
-#include "core/base/text/error_text.hpp"
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/curves/best_line.hpp"
+#include "render/figures/curves/diverged.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/curves/level_curve.hpp"
 #include "render/figures/curves/method_series.hpp"
@@ -208,7 +208,7 @@ Quantity scale_to_unit(const Quantity& quantity, bool great_errors, Curves& curv
         for (double& value : *values) visit(value);
     for (ErrorPoint& point : points) visit(point.y);
   };
-  const double most = great_errors ? greatest_error(quantity.unit) : kInfinity;
+  const double most = divergence_in(quantity.unit, great_errors);
   std::vector<ErrorLine> shown_lines = drawn(curves);
   for_each_value(shown_lines, [&](double& value) {
     if (std::abs(value) <= most) greatest = std::max(greatest, std::abs(value));
@@ -351,10 +351,7 @@ std::string course_of(const std::vector<ErrorLine>& lines, const Quantity& quant
     };
     return in_sentence(quantity.label) + " " + course_of_one(values, place);
   }
-  // What diverged widens no span, unless all did.
-  const double most = great_errors ? greatest_error(unit) : kInfinity;
-  if (std::ranges::min(known) <= most)
-    std::erase_if(known, [most](double value) { return value > most; });
+  known = without_diverged(std::move(known), divergence_in(unit, great_errors));
   const auto [least, greatest] = std::ranges::minmax(known);
   const std::string span = words(least) == words(greatest)
                                ? words(least)

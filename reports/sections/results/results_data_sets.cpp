@@ -13,8 +13,10 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
+#include "render/figures/curves/diverged.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/curves/method_series.hpp"
+#include "render/figures/layer_shapes.hpp"
 #include "reports/sections/results/results_conventions.hpp"
 
 namespace mapproof {
@@ -110,17 +112,16 @@ class DataSetDots {
     figure.alt = figure.caption;
     figure.record_ids = {record_of(block_)};
     Panel& panel = figure.panels.emplace_back();
-    std::vector<double> all;
-    for (std::size_t k = 0; k < methods_.size(); ++k) {
-      Scatter dots = dots_of(k);
-      all.insert(all.end(), dots.y.begin(), dots.y.end());
-      if (!dots.x.empty()) panel.layers.emplace_back(std::move(dots));
-    }
+    const std::vector<double> all = values();
+    const Scale scale =
+        spans_widely(without_diverged(all, divergence())) ? Scale::kLog : Scale::kLinear;
+    const DotAxis axis = dot_axis(all, scale, divergence());
+    for (std::size_t k = 0; k < methods_.size(); ++k) add_dots(k, axis, panel);
     add_crossed_legend(panel);
+    note_diverged(count_diverged(), "in", "data sets", figure.notes);
     panel.x.limits = Range{-0.5, static_cast<double>(view_.study().runs.size()) - 0.5};
     for (const Label& run : view_.study().runs) panel.x.names.push_back(run.label);
-    panel.y = {.label = label_with_unit(quantity_),
-               .scale = spans_widely(all) ? Scale::kLog : Scale::kLinear};
+    panel.y = {.label = label_with_unit(quantity_), .scale = scale, .limits = axis.limits};
     require_valid(figure);
     return figure;
   }
@@ -179,7 +180,29 @@ class DataSetDots {
                                          .width = 4.0});
   }
 
-  Scatter dots_of(std::size_t k) const {
+  double divergence() const {
+    return divergence_in(quantity_.unit, view_.has_great_errors(quantity_));
+  }
+
+  /// Of all methods in all data sets.
+  std::vector<double> values() const {
+    std::vector<double> all;
+    for (const OfMethod& method : methods_)
+      for (const auto& [run, value] : method.values) all.push_back(value);
+    return all;
+  }
+
+  std::vector<DivergedCount> count_diverged() const {
+    std::vector<DivergedCount> counts;
+    for (const OfMethod& method : methods_) {
+      DivergedCount& count = counts.emplace_back(DivergedCount{.label = method.label});
+      for (const auto& [run, value] : method.values) count.see(value, divergence());
+    }
+    return counts;
+  }
+
+  /// A method's dots, and triangles for what diverged.
+  void add_dots(std::size_t k, const DotAxis& axis, Panel& panel) const {
     constexpr double kTaken = 0.7;  // Of the distance between two data sets.
     const SeriesStyle style = style_of(k);
     const double middle = (static_cast<double>(methods_.size()) - 1.0) / 2.0;
@@ -187,18 +210,24 @@ class DataSetDots {
         kTaken * (static_cast<double>(k) - middle) / static_cast<double>(methods_.size());
     Scatter dots{
         .label = crossed_ ? "" : methods_[k].label, .colour = style.colour, .marker = style.marker};
+    Scatter diverged = diverged_dots(style.colour);
     const std::vector<Label>& runs = view_.study().runs;
     for (std::size_t i = 0; i < runs.size(); ++i) {
       const double* value = methods_[k].values.find(runs[i].id);
       if (value == nullptr) continue;
-      dots.x.push_back(static_cast<double>(i) + aside);
-      dots.y.push_back(*value);
-      dots.marks.push_back(
-          {fmt::format("{}-set-{}", key_of(k), i + 1),
-           {{"curve", methods_[k].label},
-            {"points", fmt::format("{}, {}", runs[i].label, data_number(*value))}}});
+      const double x = static_cast<double>(i) + aside;
+      Mark mark{fmt::format("{}-set-{}", key_of(k), i + 1),
+                {{"curve", methods_[k].label},
+                 {"points", fmt::format("{}, {}", runs[i].label, data_number(*value))}}};
+      const bool has_diverged = *value > axis.ceiling;
+      if (has_diverged) mark.data.emplace_back("over", data_number(axis.ceiling));
+      Scatter& at = has_diverged ? diverged : dots;
+      add_point(at, {x, axis.place_of(*value)});
+      at.marks.push_back(std::move(mark));
     }
-    return dots;
+    if (dots.x.empty() && !diverged.x.empty()) dots.x = dots.y = {kNaN};  // For the legend.
+    for (Scatter* some : {&dots, &diverged})
+      if (!some->x.empty()) panel.layers.emplace_back(std::move(*some));
   }
 
   /// On how many of the data sets one method is best.

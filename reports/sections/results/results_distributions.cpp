@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/median.hpp"
-#include "core/base/text/error_text.hpp"
-#include "core/base/text/number_text.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "render/figures/curves/best_line.hpp"
+#include "render/figures/curves/diverged.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/diagrams/value_dots.hpp"
 #include "render/figures/score_text.hpp"
@@ -79,19 +77,17 @@ std::string distribution_words(const std::vector<ErrorPanel>& panels,
   return !has_better_side(quantity) || best.empty() ? quantity.label : best;
 }
 
-/// Ends the axes where no run diverged, if some did and others not, and notes whose did.
+/// Ends the axes where no run diverged, if some did and others not.
 /// @param values  Of all runs.
 /// @return Those that the axes have.
-std::vector<double> leave_out_diverged(const std::vector<double>& values,
-                                       const std::vector<DivergedCount>& counts,
-                                       std::string_view unit, ErrorLinesSpec& spec) {
-  std::vector<double> usual = values;
-  std::erase_if(usual, [&](double value) { return value > greatest_error(unit); });
-  if (usual.empty() || usual.size() == values.size()) return values;
-  if (const auto [least, greatest] = std::ranges::minmax(usual); least < greatest)
-    for (ErrorPanel& panel : spec.panels) panel.x.limits = Range{least, greatest};
-  spec.notes.push_back({diverged_text(counts, "in", "runs"), ThemeColour::kMuted});
-  return usual;
+std::vector<double> leave_out_diverged(std::vector<double> values, double divergence,
+                                       std::vector<ErrorPanel>& panels) {
+  const std::size_t all = values.size();
+  values = without_diverged(std::move(values), divergence);
+  if (values.size() == all) return values;
+  if (const auto [least, greatest] = std::ranges::minmax(values); least < greatest)
+    for (ErrorPanel& panel : panels) panel.x.limits = Range{least, greatest};
+  return values;
 }
 
 /// Whether any method has values of several runs at one level.
@@ -129,6 +125,7 @@ std::optional<Figure> runs_figure(const ResultsView& view, const ResultsBlock& b
                      .x_label = label_with_unit(quantity),
                      .unit = quantity.unit,
                      .higher_is_better = quantity.better == Better::kHigher,
+                     .great_errors = view.has_great_errors(quantity),
                      .record_ids = {record_of(block)}};
   std::vector<double> medians;
   for (std::size_t i = 0; i < block.conditions.size(); ++i) {
@@ -144,11 +141,14 @@ std::optional<Figure> runs_figure(const ResultsView& view, const ResultsBlock& b
     }
   }
   if (medians.empty()) return std::nullopt;
+  medians = without_diverged(std::move(medians), divergence_in(quantity.unit, spec.great_errors));
   const auto [least, greatest] = std::ranges::minmax(medians);
-  spec.title =
-      fmt::format("{}: {}the median {} is between {} and {}", block.title,
-                  has_better_side(quantity) ? kTooFewRuns : "", in_sentence(quantity.label),
-                  quantity_text(least, quantity.unit), quantity_text(greatest, quantity.unit));
+  const auto words = [&](double median) {
+    return value_words(median, quantity.unit, spec.great_errors);
+  };
+  spec.title = fmt::format("{}: {}the median {} is between {} and {}", block.title,
+                           has_better_side(quantity) ? kTooFewRuns : "",
+                           in_sentence(quantity.label), words(least), words(greatest));
   return value_dots_figure(spec);
 }
 
@@ -171,6 +171,8 @@ std::optional<Figure> distribution_figure(const ResultsView& view, const Results
   spec.record_ids = {record_of(block)};
   spec.log_from = HUGE_VAL;
   const std::vector<ResultsLine> lines = view.lines(block, quantity);
+  const bool great_errors = view.has_great_errors(quantity);
+  const double divergence = divergence_in(quantity.unit, great_errors);
   std::vector<double> values, medians;
   std::vector<DivergedCount> counts;
   for (const ResultsLine& line : lines) counts.push_back({.label = line.label});
@@ -183,7 +185,7 @@ std::optional<Figure> distribution_figure(const ResultsView& view, const Results
       ErrorLine curve = distribution_of(runs);
       if (curve.x.empty()) continue;
       if (i == 0) medians.push_back(median_of(runs));
-      for (const auto& [run, value] : runs) counts[k].see(value, greatest_error(quantity.unit));
+      for (const auto& [run, value] : runs) counts[k].see(value, divergence);
       values.insert(values.end(), curve.x.begin(), curve.x.end());
       curve.label = lines[k].label;
       curve.key = key_of(k);
@@ -191,8 +193,8 @@ std::optional<Figure> distribution_figure(const ResultsView& view, const Results
       panel.lines.push_back(std::move(curve));
     }
   }
-  const bool great_errors = view.has_great_errors(quantity);
-  if (great_errors) values = leave_out_diverged(values, counts, quantity.unit, spec);
+  note_diverged(counts, "in", "runs", spec.notes);
+  values = leave_out_diverged(std::move(values), divergence, spec.panels);
   if (spans_widely(values))
     for (ErrorPanel& panel : spec.panels) panel.x.scale = Scale::kLog;
   spec.title = fmt::format("{}: {}", block.title,
