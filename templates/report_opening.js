@@ -110,8 +110,8 @@ function firstPanel(svg, parts) {
 }
 
 // The drawing for a wide page: of several panels the first one alone, where in all of them words were
-// too small to be read in the box. Returns what to show, whether its title is left out, and the height
-// at which its words can be read, if it can be.
+// too small to be read in the box. Returns what to show, whether its title is left out, the height at
+// which its words can be read, if it can be, and that of the whole drawing on paper.
 function readable(text, width_px, height_px) {
   const box = document.createElement("div");
   box.className = "measured";
@@ -132,10 +132,15 @@ function readable(text, width_px, height_px) {
   const shown = isBetter ? first : parts.whole;
   return { text: isBetter ? new XMLSerializer().serializeToString(svg) : text, untitled: isBetter,
     least_px: kLeastOpening_px / least * shown.height,
-    paper_px: kPaperWords_px / least * shown.height };
+    paper_px: kPaperWords_px / least * parts.whole.height };
 }
 
 const openingDrawings = new WeakMap();  // Each image → its drawing.
+
+function setDrawing(image, text) {
+  openingDrawings.set(image, inPageColours(text));
+  image.src = svgUrl(highlighted(openingDrawings.get(image)));
+}
 
 function addImage(link, alt, drawing) {
   const figure = document.getElementById(link.hash.slice(1));
@@ -143,9 +148,17 @@ function addImage(link, alt, drawing) {
   if (text === "") return;
   const image = link.querySelector("img") ?? new Image();
   image.alt = alt;
-  openingDrawings.set(image, inPageColours(drawing(text)));
-  image.src = svgUrl(highlighted(openingDrawings.get(image)));
+  setDrawing(image, drawing(text));
   link.prepend(image);
+}
+
+// A second image, which paper shows in place of one panel of a drawing: there is room for all of them.
+function addWholeOnPaper(link, text) {
+  const image = new Image();
+  image.className = "whole";
+  image.alt = "";
+  setDrawing(image, text);
+  link.append(image);
 }
 
 // The method that is chosen, in the images.
@@ -287,7 +300,7 @@ function addNotesBelow(link, notes) {
 function addMainFigure() {
   const link = document.querySelector(".main-figure a");
   if (!link) return;
-  for (const note of link.parentElement.querySelectorAll("small")) note.remove();
+  for (const old of link.parentElement.querySelectorAll("small, img.whole")) old.remove();
   const kBelow_px = 8, kBorders_px = 2, kTitleGap_px = 5;
   const kLeastHeight_px = 272, kMostHeight_px = 640;
   const { clientWidth } = link.parentElement;
@@ -310,6 +323,7 @@ function addMainFigure() {
     const whole = readable(text, clientWidth - kBorders_px, height - kBorders_px);
     const shown = whole.untitled ? readable(text, clientWidth - kBorders_px, title_px) : whole;
     isUntitled = shown.untitled;
+    if (isUntitled) addWholeOnPaper(link, text);
     const most_px = Math.max(isUntitled ? title_px : height - kBorders_px, shown.least_px);
     link.parentElement.style.setProperty("--most",
       `${Math.min(most_px, kMostHeight_px) + kBorders_px}px`);

@@ -53,10 +53,23 @@ function decoded(text) {
   return text.replace(/&(lt|gt|quot|apos|amp);/g, (all, name) => characters[name]);
 }
 
+// Whether a text has a word there, not in another one.
+function beginsWord(text, at) {
+  return at === 0 || !/[\p{L}\p{N}]/u.test(text[at - 1]);
+}
+
+// Where a text has a word: at the beginning of one of its own, if there it has it; -1 if nowhere.
+function placeOf(text, word) {
+  for (let at = text.indexOf(word); at >= 0; at = text.indexOf(word, at + 1)) {
+    if (beginsWord(text, at)) return at;
+  }
+  return text.indexOf(word);
+}
+
 // Some words of a text around the first one that was searched for, which is marked.
 function excerpt(text, words) {
   const kBefore = 12, kMost = 80;
-  const at = text.toLocaleLowerCase("en").indexOf(words[0]);
+  const at = placeOf(text.toLocaleLowerCase("en"), words[0]);
   const from = at <= kBefore ? 0 : text.indexOf(" ", at - kBefore) + 1;
   const start = `${from > 0 ? "\u2026\u00a0" : ""}`;
   if (at < 0) return [start, text.slice(0, kMost)];
@@ -71,8 +84,20 @@ function idOf(element) {
   return element.id;
 }
 
-function matches(entry, words) {
-  return words.every((word) => entry.words.includes(word));
+// How well an entry is what is searched for: 2 if words of it begin with all that is typed, 1 if it
+// has that, 0 if not.
+function match(entry, words) {
+  const places = words.map((word) => placeOf(entry.words, word));
+  if (places.includes(-1)) return 0;
+  return places.every((at) => beginsWord(entry.words, at)) ? 2 : 1;
+}
+
+// What is found of all entries, those with whole beginnings first, each in the order of the page.
+function foundOf(all, words) {
+  if (words.length === 0) return [];
+  const found = [[], [], []];
+  for (const entry of all) found[match(entry, words)].push(entry);
+  return [...found[2], ...found[1]];
 }
 
 function addSearch(parent) {
@@ -83,30 +108,49 @@ function addSearch(parent) {
   field.placeholder = "Search this page";
   field.setAttribute("aria-label", "Search this page");
   list.className = "found";
-  let all, titles;
+  const more = document.createElement("button");
+  more.type = "button";
+  let all, titles, words = [], found = [], next = 0;
+  const itemOf = (entry) => {
+    const item = document.createElement("li"), link = document.createElement("a");
+    link.href = entry.element.getAttribute("href") ?? `#${entry.link || idOf(entry.element)}`;
+    const place = document.createElement("small");
+    place.textContent = titles.get(entry.section) ?? "";
+    link.append(...excerpt(entry.text ?? entry.name, words), place);
+    link.title = entry.text ?? entry.name;
+    link.addEventListener("click", () => unfold(entry.element));
+    item.append(link);
+    return item;
+  };
+  const show = (most) => {
+    list.replaceChildren(...found.slice(0, most).map(itemOf));
+    const isCut = found.length > most;
+    count.textContent = words.length === 0 ? "" :
+      isCut ? `${found.length} found, the first ${most} are listed` : `${found.length} found`;
+    more.textContent = `Show all ${found.length}`;
+    more.hidden = !isCut;
+  };
+  more.hidden = true;
+  more.addEventListener("click", () => {
+    const first = list.childElementCount;
+    show(found.length);
+    list.children[first].querySelector("a").focus();
+  });
   field.addEventListener("input", () => {
     all ??= searchables();
     titles ??= sectionTitles();
-    const words = field.value.toLocaleLowerCase("en").split(/\s+/).filter(Boolean);
-    const found = words.length === 0 ? [] : all.filter((entry) => matches(entry, words));
-    list.replaceChildren(...found.slice(0, kMostFound).map((entry) => {
-      const item = document.createElement("li"), link = document.createElement("a");
-      link.href = entry.element.getAttribute("href") ?? `#${entry.link || idOf(entry.element)}`;
-      const place = document.createElement("small");
-      place.textContent = titles.get(entry.section) ?? "";
-      link.append(...excerpt(entry.text ?? entry.name, words), place);
-      link.title = entry.text ?? entry.name;
-      link.addEventListener("click", () => unfold(entry.element));
-      item.append(link);
-      return item;
-    }));
-    const more = found.length - kMostFound;
-    count.textContent = words.length === 0 ? "" :
-      more > 0 ? `${found.length} found, the first ${kMostFound} are listed` : `${found.length} found`;
+    words = field.value.toLocaleLowerCase("en").split(/\s+/).filter(Boolean);
+    found = foundOf(all, words);
+    next = 0;
+    show(kMostFound);
   });
+  // Each press leads one hit on.
   field.addEventListener("keydown", (event) => {
-    if (event.key === "Enter") list.querySelector("a")?.click();
+    if (event.key !== "Enter" || found.length === 0) return;
+    if (next >= list.childElementCount) show(found.length);
+    list.children[next].querySelector("a").click();
+    next = (next + 1) % found.length;
   });
   label.append(field);
-  parent.prepend(label, count, list);
+  parent.prepend(label, count, list, more);
 }

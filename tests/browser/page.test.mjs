@@ -288,6 +288,34 @@ test("the search finds figures by words that are outlines, and opens what is fol
   await close();
 });
 
+test("the search lists words of one's own before parts of words, all hits if asked, and Enter leads on",
+  async () => {
+    const { page, close } = await open();
+    const field = page.getByRole("searchbox", { name: "Search this page" });
+    const found = page.locator(".found a"), more = page.locator(".contents > button");
+    await field.fill("ma");  // Maps, and SMACOF.
+    assert.ok(await found.count() > 1);
+    await more.click();
+    const texts = await found.evaluateAll((all) => all.map((each) => each.title.toLowerCase()));
+    const counted = Number(/^\d+/.exec(await page.locator(".contents > output").textContent())[0]);
+    assert.equal(texts.length, counted);
+    assert.equal(await more.isVisible(), false);
+    const marked = await found.evaluateAll((all) => all.map((each) => {
+      const before = each.querySelector("mark")?.previousSibling?.textContent ?? "";
+      return each.querySelector("mark") !== null && !/[\p{L}\p{N}]$/u.test(before);
+    }));
+    // Hits in names come in this order; those in captions alone have no mark.
+    const first = marked.indexOf(true);
+    assert.ok(first >= 0 && first < 3, `${marked}`);
+    const places = [];
+    for (let i = 0; i < 3; ++i) {
+      await field.press("Enter");
+      places.push(await page.evaluate(() => location.hash));
+    }
+    assert.equal(new Set(places).size, 3, places.join());
+    await close();
+  });
+
 test("the search finds the texts of the page, and leads to them", async () => {
   const { page, close } = await open();
   const field = page.getByRole("searchbox", { name: "Search this page" });

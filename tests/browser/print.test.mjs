@@ -6,6 +6,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
 import { kinds, open } from "./support.mjs";
+import { openingPlaced } from "./waits.mjs";
 
 const kPaper_px = 688;  // Between the margins of A4.
 const kLeast_pt = 8;
@@ -53,6 +54,24 @@ for (const [name, folder] of kinds) {
       return found;
     }, kLeast_pt);
     assert.deepEqual(small, []);
+    await close();
+  });
+}
+
+for (const [name, folder] of kinds) {
+  test(`${name}: paper shows all panels of the figure of the first screen`, async () => {
+    const { page, close } = await onPaper(folder);
+    await openingPlaced(page);
+    const panels = await page.evaluate(() => {
+      const link = document.querySelector(".main-figure a");
+      if (!link) return [];
+      const count = (text) => text.match(/class="frame"/g)?.length ?? 0;
+      const source = count(sourceOf(document.getElementById(link.hash.slice(1))));
+      return [...link.querySelectorAll("img")].filter((each) => each.checkVisibility()).map(
+        (each) => [count(openingDrawings.get(each)), source]);
+    });
+    assert.ok(panels.length <= 1, `${panels.length} images`);
+    for (const [shown, all] of panels) assert.equal(shown, all);
     await close();
   });
 }
