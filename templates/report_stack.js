@@ -27,12 +27,17 @@ function addDrawnTitle(svg, parts) {
   svg.parentElement.before(title);
 }
 
+// Whether the words of a drawing could not be read in a box of that width.
+function isTooWide(svg, parts, width_px) {
+  return parts.whole.width > width_px * leastWords(svg) / kLeastWords_px;
+}
+
 // How the panels are arranged in a box of that width, and if they can be in one of that height; null
 // if they are to stay as they are drawn.
 function arrangementOf(svg, parts, width_px, height_px = Infinity) {
   if (parts.panels.length === 0 || !(width_px > 0)) return null;
+  if (!isTooWide(svg, parts, width_px)) return null;
   const most = width_px * leastWords(svg) / kLeastWords_px;
-  if (parts.whole.width <= most) return null;
   const rooms = roomsOf(svg, parts);
   if (!rooms) return null;
   const greatest = (name) => Math.max(...parts.frames.map((frame) => frame[name]));
@@ -101,9 +106,17 @@ function showWhole(svg, whole) {
   if (zoomedParts.has(svg) && (wasNarrow || widths.has(svg))) {
     zoomedParts.set(svg, readZoomedParts(svg));
   }
-  if (!arrangement) return;
-  addDrawnTitle(svg, parts);
-  setHome(svg, fillWidth(svg, stack(svg, parts, arrangement)));
+  if (arrangement) {
+    addDrawnTitle(svg, parts);
+    setHome(svg, fillWidth(svg, stack(svg, parts, arrangement)));
+  } else if (narrowPage.matches && isTooWide(svg, parts, svg.parentElement.clientWidth)) {
+    // The box is moved sideways, its heading is not.
+    const below = belowTitle(svg, parts);
+    if (!below) return;
+    addDrawnTitle(svg, parts);
+    for (const part of below.heads) part.classList.add("off");
+    setHome(svg, below.box);
+  }
 }
 
 // A drawing is arranged again whenever its box has another width, as when a phone is turned.
