@@ -128,9 +128,7 @@ Standing study_standing(const NightlyFacts& nightly_run, std::span<const Finding
   result.worse = count_findings(of_study, false) > 0;
   NightlyFacts facts = nightly_run;
   if (!is_compared) facts.reference.reset();
-  std::string sentence = lower_case(verdict_sentence(facts, of_study));
-  sentence.pop_back();  // A title has no full stop.
-  result.title = fmt::format("Nightly run {}: {}", nightly_run.number, sentence);
+  result.title = verdict_title(facts, of_study);
   return result;
 }
 

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -114,14 +117,7 @@ NightlyVerdict NightlySummary::verdict() const {
   return verdict;
 }
 
-std::string NightlySummary::title() const {
-  std::string sentence = lower_case(verdict_sentence(facts, groups));
-  sentence.pop_back();  // A title has no full stop.
-  std::string text = fmt::format("Nightly run {}: {}", facts.number, sentence);
-  if (const auto known = static_cast<long long>(known_findings()); known > 0)
-    text += fmt::format("; {} known", known);
-  return text;
-}
+std::string NightlySummary::title() const { return verdict_title(facts, groups); }
 
 std::string NightlySummary::short_verdict() const {
   const std::size_t count = new_findings();
@@ -131,30 +127,83 @@ std::string NightlySummary::short_verdict() const {
   return counted(static_cast<long long>(count), "finding");
 }
 
-std::string verdict_sentence(const NightlyFacts& nightly_run,
-                             std::span<const FindingGroup> groups) {
-  bool is_less_accurate = false, is_lost = false, takes_longer = false;
+namespace {
+
+/// What a finding is of, in the order in which verdicts say it.
+enum class WorseKind { kAccuracy, kLostResults, kTime, kMemory };
+
+WorseKind kind_of(const FindingGroup& group) {
+  if (group.rule == HistoryRule::kLostResults) return WorseKind::kLostResults;
+  if (group.quantity_id == "memory") return WorseKind::kMemory;
+  const bool grew =
+      (group.is_time && !group.higher_is_better) || verdict_of(group.rule) == NightlyVerdict::kCost;
+  return grew ? WorseKind::kTime : WorseKind::kAccuracy;
+}
+
+std::string new_words(WorseKind kind) {
+  switch (kind) {
+    case WorseKind::kAccuracy:
+      return "accuracy got worse";
+    case WorseKind::kLostResults:
+      return "results are lost";
+    case WorseKind::kTime:
+      return "time grew";
+    default:
+      return "memory grew";
+  }
+}
+
+std::string known_words(WorseKind kind) {
+  switch (kind) {
+    case WorseKind::kAccuracy:
+      return "accuracy is worse";
+    case WorseKind::kLostResults:
+      return "results are lost";
+    case WorseKind::kTime:
+      return "time is longer";
+    default:
+      return "memory is larger";
+  }
+}
+
+/// "accuracy got worse and time grew" of what is new, "accuracy is worse" of what is known.
+std::string kinds_text(std::span<const FindingGroup> groups, bool known) {
+  std::set<WorseKind> kinds;
   for (const FindingGroup& group : groups)
-    if (!group.known) {
-      const bool has_lost = group.rule == HistoryRule::kLostResults;
-      is_lost |= has_lost;
-      takes_longer |= group.is_time && !has_lost;
-      is_less_accurate |=
-          !group.is_time && !has_lost && verdict_of(group.rule) == NightlyVerdict::kAccuracy;
-    }
-  const std::size_t findings = count_findings(groups, false);
-  const std::string count = ": " + counted(static_cast<long long>(findings), "finding") + ".";
-  if (is_less_accurate && is_lost) return "Accuracy got worse and results are lost" + count;
-  if (is_less_accurate && takes_longer) return "Accuracy got worse and time grew" + count;
-  if (is_less_accurate) return "Accuracy got worse" + count;
-  if (is_lost) return "Results are lost" + count;
-  if (findings > 0) return "Accuracy is unchanged; seconds or memory grew" + count;
+    if (group.known.has_value() == known) kinds.insert(kind_of(group));
+  std::vector<std::string> words;
+  for (const WorseKind kind : kinds) words.push_back(known ? known_words(kind) : new_words(kind));
+  return listed(words, words.size());
+}
+
+/// What is new, or that nothing is.
+std::string new_verdict(const NightlyFacts& nightly_run, std::span<const FindingGroup> groups) {
+  if (const std::size_t count = count_findings(groups, false); count > 0)
+    return capitalised(kinds_text(groups, false)) + ": " +
+           counted(static_cast<long long>(count), "finding");
   if (!nightly_run.reference)
     return nightly_run.number == 1
-               ? "Not compared: it is the first nightly run."
-               : "Not compared: no nightly run to compare with has the same settings.";
-  return fmt::format("Nothing {}got worse since nightly run {}.",
+               ? "Not compared: it is the first nightly run"
+               : "Not compared: no nightly run to compare with has the same settings";
+  return fmt::format("Nothing {}got worse since nightly run {}",
                      count_findings(groups, true) > 0 ? "new " : "", *nightly_run.reference);
+}
+
+}  // namespace
+
+std::string verdict_sentence(const NightlyFacts& nightly_run,
+                             std::span<const FindingGroup> groups) {
+  std::string text = new_verdict(nightly_run, groups);
+  if (const std::size_t count = count_findings(groups, true); count > 0)
+    text += fmt::format("; {} as known: {}", kinds_text(groups, true),
+                        counted(static_cast<long long>(count), "finding"));
+  return text + ".";
+}
+
+std::string verdict_title(const NightlyFacts& nightly_run, std::span<const FindingGroup> groups) {
+  std::string sentence = lower_case(verdict_sentence(nightly_run, groups));
+  sentence.pop_back();  // A title has no full stop.
+  return fmt::format("Nightly run {}: {}", nightly_run.number, sentence);
 }
 
 std::string nightly_markdown(const NightlySummary& summary) {

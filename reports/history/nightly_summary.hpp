@@ -22,15 +22,20 @@ struct NightlySummary {
   std::size_t known_findings() const;
   /// The verdict without the findings that are known.
   NightlyVerdict verdict() const;
-  /// "Nightly run 7: accuracy got worse: 2 findings".
+  /// verdict_title() of its findings.
   std::string title() const;
   /// The same in a few words, for a badge: "passed", "MPE +17.6 %", "3 findings".
   std::string short_verdict() const;
 };
 
-/// "Nothing got worse than in nightly run 3.", "Accuracy got worse: 2 findings.", "Not compared: …"
-/// @param groups  All of them; those that are known fail nothing and are not counted.
+/// "Nothing got worse since nightly run 3.", "Accuracy got worse: 2 findings.", "Not compared: …":
+/// what is new by its kind, then what is known as known: "Time grew: 10 findings; accuracy is worse
+/// as known: 2 findings."
+/// @param groups  All of them.
 std::string verdict_sentence(const NightlyFacts& nightly_run, std::span<const FindingGroup> groups);
+
+/// The same as a title, after the number of the nightly run: "Nightly run 7: time grew: 1 finding".
+std::string verdict_title(const NightlyFacts& nightly_run, std::span<const FindingGroup> groups);
 
 /// For a comment, a job's page or a message: title, findings with their commits, remarks. Nothing
 /// in it is active: names are text.

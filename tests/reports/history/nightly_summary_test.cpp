@@ -268,7 +268,33 @@ TEST(NightlySummary, CountsWhatIsKnownApart) {
   EXPECT_EQ(all.groups.size(), 1U);
   EXPECT_EQ(all.verdict(), NightlyVerdict::kPassed);
   EXPECT_EQ(all.short_verdict(), "passed");
-  EXPECT_NE(all.title().find("2 known"), std::string::npos) << all.title();
+  EXPECT_EQ(all.title(),
+            "Nightly run 3: nothing new got worse since nightly run 1; accuracy is worse as known: "
+            "2 findings");
+}
+
+TEST(NightlySummary, SaysWhatIsNewByItsKindAndWhatIsKnownAsKnown) {
+  NightlySummary summary = summary_of({known(1, "sensor"), known(2, "sensor")});
+  FindingGroup seconds{.study = "mine", .rule = HistoryRule::kSeconds, .quantity_id = "seconds"};
+  seconds.numbers = {3};
+  summary.groups.insert(summary.groups.begin(), seconds);
+  EXPECT_EQ(summary.title(),
+            "Nightly run 3: time grew: 1 finding; accuracy is worse as known: 2 findings");
+  EXPECT_EQ(verdict_sentence(summary.facts, summary.groups),
+            "Time grew: 1 finding; accuracy is worse as known: 2 findings.");
+  EXPECT_TRUE(nightly_markdown(summary).starts_with("### " + summary.title()));
+  EXPECT_NE(nightly_junit(summary).find("<testsuites name=\"" + summary.title() + "\""),
+            std::string::npos);
+  NightlyLinks links({});
+  EXPECT_EQ(study_standing(summary.facts, summary.groups, "mine", true, links).title,
+            summary.title());
+
+  FindingGroup memory{.study = "mine", .rule = HistoryRule::kCostDrift, .quantity_id = "memory"};
+  FindingGroup lost{.study = "mine", .rule = HistoryRule::kLostResults, .quantity_id = "mpe_m"};
+  memory.numbers = {4};
+  lost.numbers = {5};
+  EXPECT_EQ(verdict_sentence(summary.facts, std::vector{lost, seconds, memory}),
+            "Results are lost, time grew and memory grew: 3 findings.");
 }
 
 TEST(NightlySummary, AsMarkdownHasCommitsTheSearchAndNothingActive) {
