@@ -122,13 +122,14 @@ Paragraph nightly_runs_shown(const StudyTrend& trend) {
       trend.nightly_runs.front().number)}}};
 }
 
-/// The last nightly run's studies, those that have findings first.
-std::vector<const StudyTrend*> trends_by_findings(const IndexFacts& facts) {
+/// The last nightly run's studies in the order of their first findings, those without any last.
+std::vector<const StudyTrend*> trends_by_findings(const IndexFacts& facts,
+                                                  const NightlySummary& summary) {
   std::vector<const StudyTrend*> trends;
   for (const StudyTrend& trend : facts.trends) trends.push_back(&trend);
-  const auto found = found_on(facts.nightly_runs.back().number, facts.findings);
-  std::ranges::stable_partition(trends, [&](const StudyTrend* trend) {
-    return std::ranges::find(found, trend->name, &NightlyFinding::study) != found.end();
+  std::ranges::stable_sort(trends, {}, [&](const StudyTrend* trend) {
+    return std::ranges::find(summary.groups, trend->name, &FindingGroup::study) -
+           summary.groups.begin();
   });
   return trends;
 }
@@ -139,21 +140,21 @@ TrendLocation on_index(const IndexFacts& facts) {
 }
 
 /// Their figures.
-std::vector<Figure> course(const IndexFacts& facts) {
+std::vector<Figure> course(const IndexFacts& facts, const NightlySummary& summary) {
   std::vector<Figure> figures;
   std::set<std::string> ids;
-  for (const StudyTrend* trend : trends_by_findings(facts))
-    for (Figure& figure : trend_figures(*trend, facts.findings, on_index(facts)))
+  for (const StudyTrend* trend : trends_by_findings(facts, summary))
+    for (Figure& figure : trend_figures(*trend, facts.findings, facts.notes, on_index(facts)))
       if (figures.size() < kMostOnIndex && ids.insert(figure.id).second)
         figures.push_back(std::move(figure));
   return figures;
 }
 
 /// What they measured where nothing could be compared or nothing changed.
-std::string measured(const IndexFacts& facts) {
+std::string measured(const IndexFacts& facts, const NightlySummary& summary) {
   std::string text;
   std::size_t count = 0;
-  for (const StudyTrend* trend : trends_by_findings(facts))
+  for (const StudyTrend* trend : trends_by_findings(facts, summary))
     for (const std::string& sentence : trend_sentences(*trend, facts.findings, on_index(facts)))
       if (++count <= kMostOnIndex) text += " " + sentence;
   return text;
@@ -366,7 +367,7 @@ std::vector<Paragraph> last_findings(const IndexFacts& facts, const NightlySumma
                                            studies.empty() ? "no study that is still there"
                                                            : listed(studies, 4)))}}};
   if (auto cause = ways_to_cause(facts, summary, links)) findings.push_back(std::move(*cause));
-  if (const std::string values = measured(facts); !values.empty())
+  if (const std::string values = measured(facts, summary); !values.empty())
     findings.push_back({{strong("Measured"), phrase(":" + values)}});
   if (!to.empty() && to.size() <= kMostLinked)
     findings.push_back(ways(std::move(to), std::nullopt));
@@ -377,7 +378,7 @@ HistoryPage trend_page(const StudyTrend& trend, const NightlyFindings& findings,
                        const HistoryFolders& folders, std::span<const NightlyNote> notes) {
   HistoryPage page;
   NightlyLinks links(folders);
-  page.figures = trend_figures(trend, findings);
+  page.figures = trend_figures(trend, findings, notes);
   page.report.title = trend.name + ", by nightly run";
   const NightlyFacts& this_run = trend.nightly_runs.back();
   page.report.subtitle =
@@ -428,7 +429,7 @@ HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& folders) {
   if (auto worse = worse_section(facts, summary, links))
     report.sections.push_back(std::move(*worse));
   report.sections.push_back(last_section(facts, summary, links));
-  page.figures = course(facts);
+  page.figures = course(facts, summary);
   report.opening.findings = last_findings(facts, summary, links);
   report.opening.compared_with = compared_with(facts, links);
   show_first(page.figures, report.opening);
@@ -480,21 +481,24 @@ void put_regressed_first(Report& report, Section worse) {
   if (!worse.blocks.empty()) sections.insert(sections.begin(), std::move(worse));
 }
 
-/// Makes a figure of what got worse, of the study's first finding if one shows it, the one of the
-/// first screen; the one that was is a small one.
+/// Makes the figure of the study's first group of findings that a figure shows the one of the first
+/// screen; the one that was is a small one.
 void show_regressed(Report& report, std::span<const FindingGroup> groups,
                     const std::string& study) {
   Opening& opening = report.opening;
   const auto all = figures(report);
-  const auto of_study = std::ranges::find(groups, study, &FindingGroup::study);
-  std::string first = of_study == groups.end() ? "" : of_study->headline();
-  const auto is_worse = [&](const FigureBlock* figure) {
-    return !figure->regressed.empty() && figure->regressed.find(first) != std::string::npos;
-  };
-  if (std::ranges::none_of(all, is_worse)) first.clear();  // Then any that got worse.
   const auto main_figure = std::ranges::find(all, opening.main_figure, &FigureBlock::id);
-  const auto worse = std::ranges::find_if(all, is_worse);
-  if (worse == all.end() || (main_figure != all.end() && is_worse(*main_figure))) return;
+  auto worse = all.end();
+  for (const FindingGroup& group : groups) {
+    if (group.study != study) continue;
+    const auto is_worse = [&](const FigureBlock* figure) {
+      return figure->regressed.find(group.headline()) != std::string::npos;
+    };
+    if (main_figure != all.end() && is_worse(*main_figure)) return;
+    worse = std::ranges::find_if(all, is_worse);
+    if (worse != all.end()) break;
+  }
+  if (worse == all.end()) return;
   std::erase(opening.figure_ids, (*worse)->id);
   if (!opening.main_figure.empty())
     opening.figure_ids.insert(opening.figure_ids.begin(), opening.main_figure);

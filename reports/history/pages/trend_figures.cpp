@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <functional>
 #include <iterator>
+#include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <set>
 #include <span>
-#include <tuple>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -73,7 +77,8 @@ struct Reported {
       findings;  ///< By the index of the nightly run.
   const TrendLocation& location;
   std::map<std::string, std::size_t> method_styles;
-  std::vector<FindingGroup> last_groups = {};  ///< Of the findings of the last nightly run.
+  std::vector<NightlyFinding> last = {};       ///< The findings of the last nightly run.
+  std::vector<FindingGroup> last_groups = {};  ///< Of these: what is new goes first.
   std::size_t base = 0;  ///< The index of the nightly run that changes are shown against.
 };
 
@@ -88,18 +93,18 @@ std::optional<std::size_t> style_of(const Reported& reported, const std::string&
 }
 
 Reported reported_of(const StudyTrend& trend, const NightlyFindings& findings,
-                     const TrendLocation& location) {
+                     std::span<const NightlyNote> notes, const TrendLocation& location) {
   Reported reported{trend, {}, location, method_styles(trend)};
   for (std::size_t i = 0; i < trend.nightly_runs.size(); ++i)
     if (const auto nightly_run = findings.find(trend.nightly_runs[i].number);
         nightly_run != findings.end())
       for (const NightlyFinding& finding : nightly_run->second)
         if (finding.study == trend.name) reported.findings.emplace_back(i, &finding);
-  std::vector<NightlyFinding> last;
   for (const auto& [nightly_run, finding] : reported.findings)
-    if (nightly_run + 1 == trend.nightly_runs.size()) last.push_back(*finding);
-  reported.last_groups = grouped(trend.nightly_runs.back().number, last, std::span(&trend, 1), {});
-  reported.base = base_index(trend, last);
+    if (nightly_run + 1 == trend.nightly_runs.size()) reported.last.push_back(*finding);
+  reported.last_groups =
+      grouped(trend.nightly_runs.back().number, reported.last, std::span(&trend, 1), notes);
+  reported.base = base_index(trend, reported.last);
   return reported;
 }
 
@@ -353,7 +358,7 @@ std::string course_of(const Reported& reported, const std::string& sensor, const
   std::vector<std::string> words;
   for (const FindingGroup& group : reported.last_groups)
     if (group.quantity_id == quantity.id && (group.setup == setup || group.setup.empty()))
-      words.push_back(group.method + ": " + group.change_text());
+      words.push_back(group.method + ": " + group.change_text() + (group.known ? " (known)" : ""));
   constexpr std::size_t kMostNamed = 2;
   const std::string text =
       words.empty() ? course_without_finding(quantity, last) : listed(words, kMostNamed);
@@ -593,66 +598,104 @@ std::optional<Figure> memory_figure(const Reported& reported) {
   return drawn(std::move(spec), std::move(panel), true);
 }
 
-/// Quantity and sensor of a figure, in the order of the dictionary.
-using Subject = std::tuple<bool, std::size_t, std::string, std::string>;
+/// What a figure is about: a quantity and a sensor, or peak memory.
+struct Subject {
+  std::size_t group = 0;  ///< The index of the first group of the last findings on it.
+  std::size_t rank = 0;   ///< Of its quantity in the dictionary; memory comes last.
+  std::string quantity = {};
+  std::string sensor = {};
 
-/// Those that this nightly run's findings are about go before the others.
+  auto operator<=>(const Subject&) const = default;
+};
+
+constexpr std::size_t kLast = std::numeric_limits<std::size_t>::max();
+
+/// The index of the first group that has a finding of which a predicate holds; kLast if none has.
+template <typename Predicate>
+std::size_t first_group(const Reported& reported, const Predicate& is_about_it) {
+  const auto group = std::ranges::find_if(reported.last_groups, [&](const FindingGroup& one) {
+    return std::ranges::any_of(one.numbers, [&](int number) {
+      return is_about_it(reported.last[static_cast<std::size_t>(number) - 1]);
+    });
+  });
+  return group == reported.last_groups.end()
+             ? kLast
+             : static_cast<std::size_t>(group - reported.last_groups.begin());
+}
+
+/// In the order of the last nightly run's findings, then of the dictionary.
 std::set<Subject> subjects_of(const Reported& reported) {
-  const std::size_t this_run = reported.trend.nightly_runs.size() - 1;
-  std::set<std::tuple<std::string, std::string>> found;
-  for (const auto& [id, values] : reported.trend.medians)
-    for (const auto& [nightly_run, finding] : reported.findings)
-      if (nightly_run == this_run && is_about(*finding, id)) found.insert({id.quantity, id.sensor});
-  std::set<Subject> subjects;
+  std::map<std::pair<std::string, std::string>, Subject> subjects;
   for (const auto& [id, values] : reported.trend.medians) {
     const NightlyRule rule = rule_of(id, reported.trend.quantities, reported.trend.medians);
     if (rule == NightlyRule::kNone || rule == NightlyRule::kKept) continue;
-    const bool later = !found.contains({id.quantity, id.sensor});
+    const std::size_t group = first_group(
+        reported, [&id = id](const NightlyFinding& finding) { return is_about(finding, id); });
     const std::size_t rank = dictionary_rank(reported.trend.quantities.at(id.quantity));
-    subjects.insert({later, rank, id.quantity, id.sensor});
+    const auto [at, is_first] = subjects.try_emplace({id.quantity, id.sensor},
+                                                     Subject{group, rank, id.quantity, id.sensor});
+    if (!is_first) at->second.group = std::min(at->second.group, group);
   }
-  return subjects;
+  std::set<Subject> ordered = {{first_group(reported, is_about_memory), kLast}};
+  for (const auto& [key, subject] : subjects) ordered.insert(subject);
+  return ordered;
+}
+
+bool is_memory(const Subject& subject) { return subject.rank == kLast; }
+
+bool has_finding(const Subject& subject) { return subject.group != kLast; }
+
+std::optional<Figure> course_figure(const Reported& reported, const Subject& subject) {
+  return is_memory(subject) ? memory_figure(reported)
+                            : lines_figure(reported, subject.sensor, subject.quantity);
+}
+
+/// The first figure of values where no accuracy has a course to draw.
+std::optional<Figure> first_values(const Reported& reported, const std::set<Subject>& subjects) {
+  std::optional<Figure> first;
+  for (const Subject& subject : subjects) {
+    if (is_memory(subject)) continue;
+    const Quantity& quantity = reported.trend.quantities.at(subject.quantity);
+    const bool has_lines =
+        has_course(reported, shown_settings(reported, subject.sensor, subject.quantity), quantity);
+    if (is_accuracy(quantity.nightly) && has_lines) return std::nullopt;
+    if (!first) first = values_figure(reported, subject.sensor, subject.quantity);
+  }
+  return first;
 }
 
 }  // namespace
 
 std::vector<Figure> trend_figures(const StudyTrend& trend, const NightlyFindings& findings,
+                                  std::span<const NightlyNote> notes,
                                   const TrendLocation& location) {
-  const Reported reported = reported_of(trend, findings, location);
+  const Reported reported = reported_of(trend, findings, notes, location);
   std::vector<Figure> figures;
-  const auto is_full = [&] { return location.most > 0 && figures.size() >= location.most; };
   const std::set<Subject> subjects = subjects_of(reported);
-  bool any_accuracy = false;
-  for (const auto& [later, rank, quantity, sensor] : subjects) {
-    if (is_full()) break;
-    if (auto figure = lines_figure(reported, sensor, quantity)) {
-      figures.push_back(std::move(*figure));
-      any_accuracy = any_accuracy || is_accuracy(trend.quantities.at(quantity).nightly);
-    }
+  std::optional<Figure> values = first_values(reported, subjects);
+  const auto add = [&](std::optional<Figure> figure) {
+    const bool is_full = location.most > 0 && figures.size() >= location.most;
+    if (figure && !is_full) figures.push_back(*std::move(figure));
+  };
+  for (const Subject& subject : subjects) {
+    if (!has_finding(subject)) add(std::exchange(values, std::nullopt));
+    add(course_figure(reported, subject));
   }
-  if (!is_full())
-    if (auto figure = memory_figure(reported)) figures.push_back(std::move(*figure));
-  for (const auto& [later, rank, quantity, sensor] : subjects) {
-    if (any_accuracy) break;
-    if (auto figure = values_figure(reported, sensor, quantity)) {
-      figures.insert(figures.begin(), *std::move(figure));
-      any_accuracy = true;
-    }
-  }
-  if (location.most > 0 && figures.size() > location.most) figures.resize(location.most);
+  add(std::move(values));
   return figures;
 }
 
 std::vector<std::string> trend_sentences(const StudyTrend& trend, const NightlyFindings& findings,
                                          const TrendLocation& location) {
-  const Reported reported = reported_of(trend, findings, location);
+  const Reported reported = reported_of(trend, findings, {}, location);
   std::vector<std::string> sentences;
   const auto add = [&](const std::optional<std::string>& sentence) {
     if (sentence) sentences.push_back((location.among_others ? trend.name + ", " : "") + *sentence);
   };
-  for (const auto& [later, rank, quantity, sensor] : subjects_of(reported)) {
+  for (const Subject& subject : subjects_of(reported)) {
+    if (is_memory(subject)) continue;
     if (location.most > 0 && sentences.size() >= location.most) return sentences;
-    add(values_sentence(reported, sensor, trend.quantities.at(quantity)));
+    add(values_sentence(reported, subject.sensor, trend.quantities.at(subject.quantity)));
   }
   if (location.most == 0) add(memory_sentence(reported));
   return sentences;

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "render/plot/figure.hpp"
+#include "reports/history/nightly_notes.hpp"
 #include "reports/history/nightly_run.hpp"
 
 namespace mapproof {
@@ -15,20 +18,23 @@ using NightlyFindings = std::map<int, std::vector<NightlyFinding>>;
 /// The page that a trend's figures are for.
 struct TrendLocation {
   bool among_others = false;  ///< With other studies': ids and titles name the study.
-  std::size_t most = 0;  ///< Figures or sentences at most; 0: all. Those that this nightly run's
-                         ///< findings are about go first.
+  std::size_t most = 0;       ///< Figures or sentences at most, the first ones; 0: all.
 };
 
-/// Figures of a trend: one a sensor and quantity of accuracy, seconds, memory. Lines are the
+/// Figures of a trend: one a sensor and quantity of accuracy, seconds, memory. Those that the last
+/// nightly run's findings are about go first, in the order of their groups: what is new before what
+/// is known. Lines are the
 /// setting of each method that was best over the nightly runs, and every setting that has a finding
 /// on one of them, which is marked there. Where a figure shows more settings of a method than there
 /// are markers, those with a finding have one entry in the legend. What has fewer than two values
 /// of a line, or did not change and has no finding, has a sentence instead; where every accuracy
-/// has, the first figure shows the values of the methods. Pure: the same values give the same
-/// figures.
+/// has, a figure before those without findings shows the values of the methods. Pure: the same
+/// values give the same figures.
 /// @param trend     At least one nightly run.
 /// @param findings  Of any study; those of other studies are left out.
+/// @param notes     By which findings are known.
 std::vector<Figure> trend_figures(const StudyTrend& trend, const NightlyFindings& findings,
+                                  std::span<const NightlyNote> notes = {},
                                   const TrendLocation& location = {});
 
 /// What trend_figures() draws nothing of: "Bearing: MPE from 0.06 m (SMACOF) to 0.3 m (LPCA), 10

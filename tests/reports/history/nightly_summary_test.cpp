@@ -391,6 +391,68 @@ TEST(HistoryPages, BeginWithWhatGotWorseWhereItBeganAndALinePerStudy) {
   EXPECT_EQ(curve.is_found, (std::vector<bool>{false, false, true}));
 }
 
+TEST(HistoryPages, ShowWhatIsNewOnTheFirstScreenBeforeWhatIsKnown) {
+  StudyTrend trend = two_settings();
+  trend.peak_memory_mib = {100.0, 100.0, 112.0};
+  trend.medians[{"bearing", "lpca", 150, "seconds"}] = {1.0, 1.0, 1.5};
+  std::vector<NightlyFinding> findings = two_findings();
+  findings.push_back({.study = "mine",
+                      .rule = HistoryRule::kSeconds,
+                      .subject = "bearing, lpca",
+                      .quantity = "seconds",
+                      .since = 3,
+                      .change = 50.0});
+  findings.push_back({.study = "mine",
+                      .rule = HistoryRule::kMemory,
+                      .subject = kAllMethods,
+                      .quantity = "memory",
+                      .since = 3,
+                      .change = 12.0});
+  StudyTrend other = trend;
+  other.name = "another";
+  NightlyFinding of_other = findings[0];
+  of_other.study = "another";
+  const auto figures = [&](const std::vector<NightlyFinding>& found,
+                           const std::vector<StudyTrend>& trends) {
+    const HistoryPage index = index_page({.nightly_runs = trend.nightly_runs,
+                                          .findings = {{3, found}},
+                                          .trends = trends,
+                                          .notes = {known(1, "sensor"), known(2, "sensor")}},
+                                         {});
+    std::vector<std::string> ids = {index.report.opening.main_figure};
+    const std::vector<std::string>& small = index.report.opening.figure_ids;
+    ids.insert(ids.end(), small.begin(), small.end());
+    return ids;
+  };
+  EXPECT_EQ(figures(findings, {trend}),
+            (std::vector<std::string>{"trend-seconds-bearing", "trend-memory"}));
+  EXPECT_EQ(figures({findings[0], findings[1], of_other}, {trend, other}),
+            (std::vector<std::string>{"trend-another-mpe-m-bearing", "trend-mine-mpe-m-bearing"}));
+  const HistoryPage page =
+      trend_page(trend, {{3, findings}}, true, {}, std::vector{known(1, "a"), known(2, "a")});
+  EXPECT_EQ(page.report.opening.main_figure, "trend-seconds-bearing");
+  ASSERT_EQ(page.figures.size(), 3U);
+  EXPECT_EQ(page.figures.back().title, "Bearing: ISOMAP: MPE +20.0\u00a0% (known)");
+}
+
+TEST(HistoryPages, ShowWhatGotSlowerBeforeValuesThatDidNotChange) {
+  StudyTrend trend = two_settings();
+  for (auto& [id, values] : trend.medians) values = {0.1, 0.1, 0.1};
+  trend.medians[{"bearing", "lpca", 150, "seconds"}] = {1.0, 1.0, 1.5};
+  const NightlyFindings findings = {{3,
+                                     {{.study = "mine",
+                                       .rule = HistoryRule::kSeconds,
+                                       .subject = "bearing, lpca",
+                                       .quantity = "seconds",
+                                       .since = 3,
+                                       .change = 50.0}}}};
+  const std::vector<Figure> figures = trend_figures(trend, findings);
+  ASSERT_EQ(figures.size(), 2U);
+  EXPECT_EQ(figures[0].id, "trend-seconds-bearing");
+  EXPECT_EQ(figures[1].id, "trend-mpe-m-bearing-values");
+  EXPECT_EQ(trend_figures(trend, {}).front().id, "trend-mpe-m-bearing-values");
+}
+
 TEST(HistoryPages, SayOnceBetweenWhichNightlyRunsSeveralFindingsBegan) {
   StudyTrend trend = two_settings();
   trend.medians[{"bearing", "lpca", 150, "mpe_m"}] = {0.20, 0.30, 0.30};
