@@ -248,6 +248,8 @@ class Builder {
     for (const ErrorLine& line : from.lines)
       if (Scatter above = above_frame(line); !above.x.empty())
         panel.layers.push_back(std::move(above));
+    if (PointLabels ends = end_labels(from.lines); !ends.text.empty())
+      panel.layers.push_back(std::move(ends));
     return panel;
   }
 
@@ -289,6 +291,20 @@ class Builder {
     return above;
   }
 
+  PointLabels end_labels(const std::vector<ErrorLine>& lines) const {
+    PointLabels ends;
+    for (const ErrorLine& line : lines) {
+      const std::vector<double> shown = axis_.raised(within_frame(line.mean));
+      std::size_t count = shown.size();
+      while (count > 0 && !std::isfinite(shown[count - 1])) --count;
+      if (line.end_label.empty() || count == 0) continue;
+      ends.x.push_back(line.x[count - 1]);
+      ends.y.push_back(shown[count - 1]);
+      ends.text.push_back(line.end_label);
+    }
+    return ends;
+  }
+
   SeriesStyle style(const std::string& label) const {
     return series_style(labels_.series[static_cast<std::size_t>(
         std::ranges::find(labels_.labels, label) - labels_.labels.begin())]);
@@ -314,10 +330,6 @@ SeriesStyle series_style(std::size_t i) {
   const std::size_t colour = i % kSeriesCount, round = i / kSeriesCount;
   return {series_colour(i), kDashes[(colour + round) % kDashes.size()],
           kMarkers[(colour + 3 * (colour / kMarkers.size()) + round) % kMarkers.size()]};
-}
-
-std::size_t series_of_setting(std::size_t series, std::size_t k) {
-  return series + kSeriesCount * kDashes.size() * k;
 }
 
 std::vector<std::size_t> free_series(const std::vector<std::size_t>& taken, std::size_t count,

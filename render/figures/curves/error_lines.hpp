@@ -31,11 +31,6 @@ SeriesStyle series_style(std::size_t i);
 /// How many markers there are: those of the first styles, each once.
 inline constexpr std::size_t kMarkerCount = 7;
 
-/// What series_style() counts the k-th setting of a method as: it has the colour and the dash of
-/// the method, and up to seven settings have a marker each. @param series  The method's, setting
-/// 0's.
-std::size_t series_of_setting(std::size_t series, std::size_t k);
-
 /// How the paired test with the best line, over the runs that both have, judges a mean.
 enum class PairedWithBest { kUntested, kBest, kAlike, kWorse };
 
@@ -52,6 +47,7 @@ struct ErrorLine {
   std::optional<std::size_t> series = std::nullopt;
   /// Which of the lines of one label in a panel it is, in tips and the alt text; may be empty.
   std::string setting = {};
+  std::string end_label = {};  ///< Likewise, beside its last point; may be empty.
   /// At each x, for titles: where the best line is kBest, tests judge and not intervals. Empty:
   /// untested.
   std::vector<PairedWithBest> paired = {};

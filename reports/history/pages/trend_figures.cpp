@@ -119,46 +119,48 @@ struct Line {
   SeriesId id = {};
   const std::vector<double>* values = nullptr;
   bool is_found = false;
-  /// What a figure calls the line together with others of its method that have findings, "ISOMAP,
-  /// all 16 settings"; empty: the line is called by its own name.
-  std::string bundle = {};
+  /// What a legend calls the line: "ISOMAP, K = 6", or together with the others of its method
+  /// "ISOMAP, 2 of 3 settings".
+  std::string entry = {};
+  std::string setting = {};  ///< "K = 6", of one of several of its method; else empty.
 };
 
-/// Bundles the settings of a method that have findings where the figure shows more settings of it
-/// than there are markers to tell them apart.
-/// @param all  All settings, those that the figure does not show, too.
-void bundle_settings(const StudyLabels& labels, const std::vector<Line>& all,
-                     std::vector<Line>& shown) {
-  std::map<std::string, std::size_t> of_method, shown_of_method, found_of_method;
-  for (const Line& line : all) ++of_method[base_method(labels, line.id.method)];
-  for (const Line& line : shown) {
-    const std::string base = base_method(labels, line.id.method);
-    ++shown_of_method[base];
-    if (line.is_found) ++found_of_method[base];
-  }
-  for (Line& line : shown) {
-    const std::string base = base_method(labels, line.id.method);
-    if (!line.is_found || shown_of_method[base] <= kMarkerCount) continue;
-    const std::size_t found = found_of_method[base];
-    line.bundle = shown_method(labels, base) +
-                  (found == of_method[base] ? fmt::format(", all {} settings", found)
-                                            : fmt::format(", {} settings with a finding", found));
-  }
+/// "all 16 settings", "2 of 3 settings".
+std::string count_words(std::size_t shown, std::size_t all) {
+  if (shown < all) return fmt::format("{} of {} settings", shown, all);
+  return all == 2 ? "both settings" : fmt::format("all {} settings", all);
 }
 
-/// What a figure calls a line in its legend.
-std::string entry_of(const StudyLabels& labels, const Line& line) {
-  return line.bundle.empty() ? shown_method(labels, line.id.method) : line.bundle;
+/// What distinguishes a setting from others of its method: "K = 6" of "ISOMAP, K = 6".
+std::string setting_words(const StudyLabels& labels, const std::string& method) {
+  const std::string shown = shown_method(labels, method),
+                    begin = shown_method(labels, base_method(labels, method)) + ", ";
+  return shown.starts_with(begin) ? shown.substr(begin.size()) : shown;
+}
+
+/// Names the lines of a figure. The settings of a method are one entry of its legend: they have the
+/// colour, the dash and the marker of the method, and no other method has.
+/// @param all  All settings, those that the figure does not show, too.
+void name_lines(const StudyLabels& labels, const std::vector<Line>& all, std::vector<Line>& shown) {
+  std::map<std::string, std::size_t> of_method, shown_of_method;
+  for (const Line& line : all) ++of_method[base_method(labels, line.id.method)];
+  for (const Line& line : shown) ++shown_of_method[base_method(labels, line.id.method)];
+  for (Line& line : shown) {
+    const std::string base = base_method(labels, line.id.method);
+    const std::size_t count = shown_of_method[base];
+    if (count > 1) line.setting = setting_words(labels, line.id.method);
+    line.entry = count > 1 ? shown_method(labels, base) + ", " + count_words(count, of_method[base])
+                           : shown_method(labels, line.id.method);
+  }
 }
 
 /// The lines of the first kMostLines entries.
-std::vector<Line> first_entries(const StudyLabels& labels, std::vector<Line> lines) {
+std::vector<Line> first_entries(std::vector<Line> lines) {
   std::set<std::string> entries;
   std::vector<Line> first;
   for (Line& line : lines) {
-    const std::string entry = entry_of(labels, line);
-    if (entries.size() == kMostLines && !entries.contains(entry)) continue;
-    entries.insert(entry);
+    if (entries.size() == kMostLines && !entries.contains(line.entry)) continue;
+    entries.insert(line.entry);
     first.push_back(std::move(line));
   }
   return first;
@@ -205,8 +207,8 @@ std::vector<Line> shown_settings(const Reported& reported, const std::string& se
     if (line.is_found) lines.push_back(line);
   for (const auto& [method, line] : best)
     if (!line->is_found) lines.push_back(*line);
-  bundle_settings(reported.trend.labels, all, lines);
-  lines = first_entries(reported.trend.labels, std::move(lines));
+  name_lines(reported.trend.labels, all, lines);
+  lines = first_entries(std::move(lines));
   std::ranges::sort(lines, {}, &Line::id);
   return lines;
 }
@@ -429,28 +431,24 @@ std::optional<std::string> values_sentence(const Reported& reported, const std::
   return text + without_change(reported.trend, *longest.values);
 }
 
-/// The styles of the entries of a figure: the first one of a method has the method's, as in all
-/// figures, and each further one the next marker that is free. The lines of a bundle are one entry.
-class StyleNumbers {
- public:
-  explicit StyleNumbers(const Reported& reported) : reported_(reported) {}
-
-  /// What series_style() takes; empty of a method without a style.
-  std::optional<std::size_t> next(const Line& line) {
-    const std::optional<std::size_t> of_method = style_of(reported_, line.id.method);
-    if (!of_method) return std::nullopt;
-    const std::string entry = entry_of(reported_.trend.labels, line);
-    for (std::size_t k = 0; k < kMarkerCount; ++k)
-      if (const std::size_t style = series_of_setting(*of_method, k);
-          owners_.try_emplace(style, entry).first->second == entry)
-        return style;
-    return of_method;
+/// Whether the lines that have a name at their ends end apart, so that each name is beside its
+/// line.
+bool has_room_for_names(const std::vector<ErrorLine>& lines) {
+  constexpr double kRow = 0.06;  // Of the frame's height: a row of text, 30 of 493 px.
+  std::vector<double> all, ends;
+  for (const ErrorLine& line : lines) {
+    std::ranges::copy_if(line.mean, std::back_inserter(all),
+                         [](double value) { return std::isfinite(value); });
+    if (!line.end_label.empty() && std::isfinite(line.mean.back()))
+      ends.push_back(line.mean.back());
   }
-
- private:
-  const Reported& reported_;
-  std::map<std::size_t, std::string> owners_;  ///< The entry that has each style.
-};
+  if (ends.size() < 2) return true;
+  std::ranges::sort(ends);
+  const auto [low, high] = std::ranges::minmax(all);
+  const double row = kRow * (high - low);
+  return std::ranges::adjacent_find(ends, [row](double a, double b) { return b - a <= row; }) ==
+         ends.end();
+}
 
 std::optional<Figure> lines_figure(const Reported& reported, const std::string& sensor,
                                    const std::string& quantity) {
@@ -485,21 +483,24 @@ std::optional<Figure> lines_figure(const Reported& reported, const std::string& 
           : "",
       changes ? ", as its change since " + base_words(reported) : "");
   ErrorPanel panel = panel_of(reported.trend);
-  StyleNumbers styles(reported);
   for (const Line& line : lines) {
-    panel.lines.push_back({.label = entry_of(reported.trend.labels, line),
-                           .key = id_of(line.id.method),
-                           .x = places_of(reported.trend),
-                           .mean = shown_of(line),
-                           .series = styles.next(line),
-                           .setting = line.bundle.empty()
-                                          ? ""
-                                          : shown_method(reported.trend.labels, line.id.method)});
+    panel.lines.push_back(
+        {.label = line.entry,
+         .key = id_of(line.id.method),
+         .x = places_of(reported.trend),
+         .mean = shown_of(line),
+         .series = style_of(reported, line.id.method),
+         .setting = line.setting.empty() ? "" : shown_method(reported.trend.labels, line.id.method),
+         .end_label = line.setting});
     const auto is_about_it = [&](const NightlyFinding& finding) {
       return is_about(finding, line.id);
     };
     mark_findings(reported, panel.lines.back(), is_about_it, panel);
   }
+  if (!has_room_for_names(panel.lines))
+    for (ErrorLine& line : panel.lines) line.end_label.clear();
+  else if (std::ranges::any_of(lines, [](const Line& line) { return !line.setting.empty(); }))
+    spec.caption += " The ends of lines name the settings of one method.";
   return drawn(std::move(spec), std::move(panel), facts.nightly == NightlyRule::kDuration);
 }
 
@@ -535,11 +536,10 @@ std::optional<Figure> values_figure(const Reported& reported, const std::string&
       named_spec(reported, id_of(quantity) + "-" + id_of(sensor) + "-values",
                  (setup.empty() ? "" : setup + ": ") + best_text(reported, facts, lines));
   ValueDotsPanel panel;
-  StyleNumbers styles(reported);
   for (std::size_t i = 0; i < lines.size(); ++i)
     panel.methods.push_back({.label = shown_method(reported.trend.labels, lines[i].id.method),
                              .key = id_of(lines[i].id.method),
-                             .series = styles.next(lines[i]).value_or(i),
+                             .series = style_of(reported, lines[i].id.method).value_or(i),
                              .value = level_of(lines[i])});
   return value_dots_figure(
       {.id = named.id,

@@ -23,13 +23,12 @@ struct TrendLocation {
 
 /// Figures of a trend: one a sensor and quantity of accuracy, seconds, memory. Those that the last
 /// nightly run's findings are about go first, in the order of their groups: what is new before what
-/// is known. Lines are the
-/// setting of each method that was best over the nightly runs, and every setting that has a finding
-/// on one of them, which is marked there. Where a figure shows more settings of a method than there
-/// are markers, those with a finding have one entry in the legend. What has fewer than two values
-/// of a line, or did not change and has no finding, has a sentence instead; where every accuracy
-/// has, a figure before those without findings shows the values of the methods. Pure: the same
-/// values give the same figures.
+/// is known. Lines are the setting of each method that was best over the nightly runs, and every
+/// setting that has a finding on one of them, which is marked there. Settings of one method have
+/// its style and one entry in the legend; their ends are named where they lie apart. What has
+/// fewer than two values of a line, or did not change and has no finding, has a sentence instead;
+/// where every accuracy has, a figure before those without findings shows the values of the
+/// methods. Pure: the same values give the same figures.
 /// @param trend     At least one nightly run.
 /// @param findings  Of any study; those of other studies are left out.
 /// @param notes     By which findings are known.

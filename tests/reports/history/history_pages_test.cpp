@@ -2,6 +2,8 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
+#include <variant>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -123,7 +125,7 @@ TEST(HistoryPages, ShowTheSettingThatWasBestAndGotWorseAndMarkTheNightlyRun) {
         {.study = "mine", .subject = "bearing, isomap-K6, 150 steps", .quantity = "mpe_m"},
         {.study = "another", .subject = "bearing, isomap-K7, 150 steps", .quantity = "mpe_m"}}}};
   const Figure figure = trend_figures(trend, findings).front();
-  EXPECT_EQ(curves(figure), (std::vector<std::string>{"ISOMAP, K = 5", "ISOMAP, K = 6"}));
+  EXPECT_EQ(curves(figure), std::vector<std::string>(2, "ISOMAP, 2 of 3 settings"));
   std::vector<std::pair<double, double>> marked;
   for (const Layer& layer : figure.panels.front().layers)
     if (const auto* mark = std::get_if<Scatter>(&layer))
@@ -147,40 +149,91 @@ TEST(HistoryPages, LabelWhatAStudyDeclaresAsItDoes) {
   EXPECT_EQ(std::get<TextCell>(table.rows.back().cells[1]).text, "Landmarks found");
 }
 
-TEST(HistoryPages, GiveAMethodItsStyleInAllFiguresAndEachOfItsSettingsAMarker) {
+using DrawnStyle = std::tuple<ThemeColour, Dash, Marker>;
+
+DrawnStyle style_in_figures(Method method) {
+  const SeriesStyle style = series_style(method_series(method));
+  return {style.colour, style.dash, style.marker};
+}
+
+/// The styles of the lines under each name of a figure's legend.
+std::map<std::string, std::set<DrawnStyle>> drawn_styles(const Figure& figure) {
+  std::map<std::string, std::set<DrawnStyle>> styles;
+  for (const Layer& layer : figure.panels.front().layers)
+    if (const auto* line = std::get_if<Polyline>(&layer))
+      styles[line->label].insert({line->colour, line->dash, line->marker});
+  return styles;
+}
+
+/// The names at the ends of a figure's lines.
+std::vector<std::string> end_labels(const Figure& figure) {
+  for (const Layer& layer : figure.panels.front().layers)
+    if (const auto* labels = std::get_if<PointLabels>(&layer)) return labels->text;
+  return {};
+}
+
+TEST(HistoryPages, GiveAMethodOneStyleInAllFiguresAndNameItsSettingsAtTheirEnds) {
   StudyTrend trend = best_got_worse();
+  trend.medians[{"bearing", "lpca", 150, "mpe_m"}] = {0.20, 0.20, 0.20, 0.21};
   trend.medians[{"visibility", "isomap-K5", 150, "mpe_m"}] = {0.30, 0.30, 0.30, 0.40};
   trend.medians[{"visibility", "isomap-K7", 150, "mpe_m"}] = {0.22, 0.22, 0.22, 0.21};
-  const auto marker_of = [](const Figure& figure, const std::string& label) {
-    for (const Layer& layer : figure.panels.front().layers)
-      if (const auto* line = std::get_if<Polyline>(&layer); line && line->label == label)
-        return line->marker;
-    return Marker::kNone;
-  };
   const NightlyFindings findings = {
       {4,
        {{.study = "mine", .subject = "bearing, isomap-K7, 150 steps", .quantity = "mpe_m"},
         {.study = "mine", .subject = "visibility, isomap-K5, 150 steps", .quantity = "mpe_m"}}}};
   const std::vector<Figure> figures = trend_figures(trend, findings);
   ASSERT_EQ(figures.size(), 2U);
-  for (const char* label : {"ISOMAP, K = 5", "ISOMAP, K = 7"}) {
-    EXPECT_NE(marker_of(figures[0], label), Marker::kNone) << label;
-    EXPECT_EQ(marker_of(figures[0], label), marker_of(figures[1], label)) << label;
-  }
-  EXPECT_NE(marker_of(figures[0], "ISOMAP, K = 5"), marker_of(figures[0], "ISOMAP, K = 7"));
+  const std::set<DrawnStyle> isomap = {style_in_figures(Method::kIsomap)},
+                             lpca = {style_in_figures(Method::kLpca)};
+  const auto& bearing =
+      *std::ranges::find(figures, std::string("trend-mpe-m-bearing"), &Figure::id);
+  EXPECT_EQ(drawn_styles(bearing), (std::map<std::string, std::set<DrawnStyle>>{
+                                       {"ISOMAP, 2 of 3 settings", isomap}, {"LPCA", lpca}}));
+  EXPECT_EQ(end_labels(bearing), (std::vector<std::string>{"K = 5", "K = 7"}));
+  EXPECT_TRUE(bearing.caption.find("The ends of lines name the settings") != std::string::npos);
+  const auto& visibility =
+      *std::ranges::find(figures, std::string("trend-mpe-m-visibility"), &Figure::id);
+  EXPECT_EQ(drawn_styles(visibility),
+            (std::map<std::string, std::set<DrawnStyle>>{{"ISOMAP, both settings", isomap}}));
   // Where one setting is shown, whichever it is.
-  const Marker of_method = series_style(method_series(Method::kIsomap)).marker;
   trend.medians.erase({"visibility", "isomap-K5", 150, "mpe_m"});
-  std::vector<Marker> alone;
   for (const Figure& figure : trend_figures(trend, {})) {
-    const Marker marker = marker_of(figure, "ISOMAP, K = 7");
-    if (marker != Marker::kNone) alone.push_back(marker);
+    if (figure.id != "trend-mpe-m-visibility") continue;
+    EXPECT_EQ(drawn_styles(figure),
+              (std::map<std::string, std::set<DrawnStyle>>{{"ISOMAP, K = 7", isomap}}));
+    EXPECT_TRUE(end_labels(figure).empty());
   }
-  ASSERT_FALSE(alone.empty());
-  for (const Marker marker : alone) EXPECT_EQ(marker, of_method);
 }
 
-TEST(HistoryPages, DrawMoreSettingsOfAMethodThanThereAreMarkersInItsColourUnderOneName) {
+TEST(HistoryPages, GiveTheLevelsOfAMethodOfAnotherProgramTheStyleOfTheMethod) {
+  StudyTrend trend{.name = "mine"};
+  for (int number = 1; number <= 2; ++number) trend.nightly_runs.push_back({.number = number});
+  trend.labels = {.methods = {{"ekf", "EKF"}, {"mcl", "MCL"}, {"graph", "Graph SLAM"}},
+                  .factors = {{"noise", {"range noise", "m"}}}};
+  NightlyFindings findings;
+  for (const double level : {0.1, 0.2, 0.5}) {
+    const std::string method = fmt::format("graph noise={}", level);
+    trend.medians[{"hall", method, 0, "mpe_m"}] = {0.1, 0.1 + level};
+    findings[2].push_back({.study = "mine", .subject = "hall, " + method, .quantity = "mpe_m"});
+  }
+  trend.medians[{"hall", "ekf noise=0.1", 0, "mpe_m"}] = {0.1, 0.1};
+  trend.medians[{"hall", "mcl noise=0.1", 0, "mpe_m"}] = {0.1, 0.1};
+  const Figure figure = trend_figures(trend, findings).front();
+  EXPECT_EQ(problem(figure), "");
+  std::set<Marker> markers;
+  for (const auto& [label, styles] : drawn_styles(figure)) {
+    ASSERT_EQ(styles.size(), 1U) << label;
+    EXPECT_TRUE(markers.insert(std::get<Marker>(*styles.begin())).second)
+        << label << " has the marker of another method";
+  }
+  EXPECT_EQ(markers.size(), 3U);
+  EXPECT_TRUE(drawn_styles(figure).contains("Graph SLAM, all 3 settings"));
+  EXPECT_EQ(end_labels(figure),
+            (std::vector<std::string>{"range noise 0.1\u00a0m", "range noise 0.2\u00a0m",
+                                      "range noise 0.5\u00a0m"}));
+}
+
+TEST(HistoryPages, NameTheSettingsOfLinesThatEndTogetherInTheirTipsAlone) {
   StudyTrend trend{.name = "mine"};
   for (int number = 1; number <= 2; ++number) trend.nightly_runs.push_back({.number = number});
   NightlyFindings findings;
@@ -191,42 +244,28 @@ TEST(HistoryPages, DrawMoreSettingsOfAMethodThanThereAreMarkersInItsColourUnderO
     findings[2].push_back(
         {.study = "mine", .subject = "bearing, " + method + ", 150 steps", .quantity = "mpe_m"});
   }
-  const auto drawn = [&] {
-    const Figure figure = trend_figures(trend, findings).front();
-    std::map<std::string, std::set<std::pair<ThemeColour, Marker>>> styles;
-    std::set<std::string> settings, of_findings;
-    const auto add_setting = [](const Mark& mark, std::set<std::string>& all) {
-      for (const auto& [key, value] : mark.data)
-        if (key == "setting") all.insert(value);
-    };
-    for (const Layer& layer : figure.panels.front().layers)
-      if (const auto* line = std::get_if<Polyline>(&layer)) {
-        styles[line->label].insert({line->colour, line->marker});
-        add_setting(line->mark, settings);
-      } else if (const auto* found = std::get_if<Scatter>(&layer)) {
-        for (const Mark& mark : found->marks) add_setting(mark, of_findings);
-      }
-    EXPECT_EQ(settings, of_findings) << "the ring of a finding names the setting of its line";
-    return std::pair(styles, settings);
+  const Figure figure = trend_figures(trend, findings).front();
+  std::set<std::string> settings, of_findings;
+  const auto add_setting = [](const Mark& mark, std::set<std::string>& all) {
+    for (const auto& [key, value] : mark.data)
+      if (key == "setting") all.insert(value);
   };
-  const ThemeColour colour = series_style(method_series(Method::kIsomap)).colour;
-  const auto [styles, settings] = drawn();
-  ASSERT_EQ(styles.size(), 1U);
-  EXPECT_EQ(styles.begin()->first, "ISOMAP, all 16 settings");
-  ASSERT_EQ(styles.begin()->second.size(), 1U);
-  EXPECT_EQ(styles.begin()->second.begin()->first, colour);
+  for (const Layer& layer : figure.panels.front().layers)
+    if (const auto* line = std::get_if<Polyline>(&layer))
+      add_setting(line->mark, settings);
+    else if (const auto* found = std::get_if<Scatter>(&layer))
+      for (const Mark& mark : found->marks) add_setting(mark, of_findings);
+  EXPECT_EQ(settings, of_findings) << "the ring of a finding names the setting of its line";
   EXPECT_EQ(settings.size(), kSettings) << "all are drawn";
   EXPECT_TRUE(settings.contains("ISOMAP, K = 20"));
+  EXPECT_EQ(drawn_styles(figure),
+            (std::map<std::string, std::set<DrawnStyle>>{
+                {"ISOMAP, all 16 settings", {style_in_figures(Method::kIsomap)}}}));
+  EXPECT_TRUE(end_labels(figure).empty());
 
   findings[2].erase(findings[2].begin());  // The best one got no worse.
-  const auto with_best = drawn().first;
-  ASSERT_EQ(with_best.size(), 2U);
-  EXPECT_EQ(with_best.begin()->first, "ISOMAP, 15 settings with a finding");
-  EXPECT_EQ(with_best.rbegin()->first, "ISOMAP, K = 5");
-  const auto bundle = *with_best.begin()->second.begin(),
-             best = *with_best.rbegin()->second.begin();
-  EXPECT_EQ(bundle.first, best.first) << "a method has one colour";
-  EXPECT_NE(bundle.second, best.second);
+  EXPECT_EQ(drawn_styles(trend_figures(trend, findings).front()), drawn_styles(figure))
+      << "it is drawn, too";
 }
 
 TEST(HistoryPages, ShowWhatTheFirstNightlyRunMeasuredInsteadOfATrend) {
