@@ -27,6 +27,7 @@ constexpr std::size_t kLargestValue = std::size_t{1} << 25;  // Bytes of a figur
 constexpr std::size_t kMostPanels = 4;
 constexpr std::size_t kMostLabels = 12;
 constexpr std::size_t kMostQuantities = 3;
+constexpr std::size_t kLongestName = 200;  // Characters.
 
 Range together(const Range& a, const Range& b) {
   return {std::min(a.low, b.low), std::max(a.high, b.high)};
@@ -189,8 +190,14 @@ void set_common_limits(Panel& panel, const Panel& other) {
 
 bool can_be_drawn(const Figure& figure) { return problem(figure).empty(); }
 
+/// A panel and what readers call what it shows.
+struct NamedPanel {
+  SubjectLabel label;
+  Panel panel;
+};
+
 /// What is drawn of the record in which a landmark moved farthest.
-std::optional<Panel> panel_of_points(const std::vector<PointsDiff>& all) {
+std::optional<NamedPanel> panel_of_points(const std::vector<PointsDiff>& all) {
   const PointsDiff* farthest = nullptr;
   double most = 0.0;
   for (const PointsDiff& points : all)
@@ -210,16 +217,16 @@ std::optional<Panel> panel_of_points(const std::vector<PointsDiff>& all) {
   lines.x0 = before.x, lines.y0 = before.y, lines.x1 = after.x, lines.y1 = after.y;
   names.x = after.x, names.y = after.y;
   const bool in_metres = farthest->quantity != "landmark_shape";
-  return Panel{
-      .title = printable(farthest->label.empty() ? farthest->record : farthest->label, 200),
-      .x = Axis{.label = in_metres ? "x [m]" : "x"},
-      .y = Axis{.label = in_metres ? "y [m]" : "y"},
-      .equal_aspect = true,
-      .layers = {lines, before, after, names}};
+  return NamedPanel{farthest->label.empty() ? SubjectLabel{farthest->record} : farthest->label,
+                    Panel{.title = "",
+                          .x = Axis{.label = in_metres ? "x [m]" : "x"},
+                          .y = Axis{.label = in_metres ? "y [m]" : "y"},
+                          .equal_aspect = true,
+                          .layers = {lines, before, after, names}}};
 }
 
 /// The values of one quantity, run by run; empty: there is no pair of numbers.
-std::optional<Panel> panel_of(const Comparison& comparison) {
+std::optional<NamedPanel> panel_of(const Comparison& comparison) {
   Scatter runs{.colour = ThemeColour::kSeries1};
   for (const Point& pair : comparison.values) runs.x.push_back(pair.x), runs.y.push_back(pair.y);
   if (runs.x.empty()) return std::nullopt;
@@ -239,10 +246,34 @@ std::optional<Panel> panel_of(const Comparison& comparison) {
   runs.label = std::cmp_equal(runs.x.size(), comparison.pairs)
                    ? all
                    : fmt::format("{} of {}", runs.x.size(), all);
-  return Panel{.title = printable(comparison.label, 200),
-               .x = Axis{.label = "baseline: " + name},
-               .y = Axis{.label = "current: " + name},
-               .layers = {equal, runs}};
+  return NamedPanel{comparison.label, Panel{.title = "",
+                                            .x = Axis{.label = "baseline: " + name},
+                                            .y = Axis{.label = "current: " + name},
+                                            .layers = {equal, runs}}};
+}
+
+/// Whether all panels have the same part there.
+bool share_part(const std::vector<NamedPanel>& panels, std::size_t index) {
+  const auto has_it = [&](const NamedPanel& one) {
+    return index < one.label.size() && one.label[index] == panels.front().label[index];
+  };
+  return index < panels.front().label.size() && std::ranges::all_of(panels, has_it);
+}
+
+/// A figure of these panels: the parts that all their names share stand in its title, the others,
+/// which distinguish them, each in a line of the panel's.
+Figure with_names(Figure figure, std::vector<NamedPanel> panels) {
+  SubjectLabel shared;
+  for (std::size_t i = 0; i < panels.front().label.size(); ++i)
+    if (share_part(panels, i)) shared.push_back(panels.front().label[i]);
+  if (!shared.empty()) figure.title += ": " + printable(label_text(shared), kLongestName);
+  for (auto& [label, panel] : panels) {
+    for (std::size_t i = 0; i < label.size(); ++i)
+      if (!share_part(panels, i))
+        panel.title += (panel.title.empty() ? "" : "\n") + printable(label[i], kLongestName);
+    figure.panels.push_back(std::move(panel));
+  }
+  return figure;
 }
 
 }  // namespace
@@ -309,20 +340,22 @@ std::optional<Figure> change_figure(const RecordDiff& diff) {
   Figure figure;
   figure.id = "change";
   figure.title = "What changed in the records";
-  if (std::optional<Panel> panel = panel_of_points(diff.points))
-    figure.panels.push_back(*std::move(panel));
+  std::vector<NamedPanel> panels;
+  if (std::optional<NamedPanel> panel = panel_of_points(diff.points))
+    panels.push_back(*std::move(panel));
   std::vector<const Comparison*> severe;
   for (const Comparison& comparison : diff.comparisons)
     if (comparison.beyond > 0) severe.push_back(&comparison);
   std::ranges::stable_sort(
       severe, [](const Comparison* a, const Comparison* b) { return shows_more(*a, *b); });
   for (const Comparison* comparison : severe) {
-    if (figure.panels.size() > kMostQuantities) break;
-    if (std::optional<Panel> panel = panel_of(*comparison))
-      figure.panels.push_back(*std::move(panel));
+    if (panels.size() > kMostQuantities) break;
+    if (std::optional<NamedPanel> panel = panel_of(*comparison))
+      panels.push_back(*std::move(panel));
   }
-  if (figure.panels.empty() || !can_be_drawn(figure)) return std::nullopt;
-  return figure;
+  if (panels.empty()) return std::nullopt;
+  figure = with_names(std::move(figure), std::move(panels));
+  return can_be_drawn(figure) ? std::optional(std::move(figure)) : std::nullopt;
 }
 
 std::optional<Figure> change_figure(const DiffItem& item,

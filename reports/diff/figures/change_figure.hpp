@@ -31,7 +31,8 @@ std::optional<Figure> change_figure(const FigureValues& values, const FigureDiff
 /// What changed between two sets of records: the old and the new positions of the landmarks of the
 /// record in which one moved farthest, joined by lines; and for up to three quantities, the most
 /// severe first, each run's current value over its baseline, also of runs that are equal; the
-/// legend has their number. Empty if there is neither.
+/// legend has their number. What all panels show is named in the title, the rest in theirs. Empty
+/// if there is neither.
 std::optional<Figure> change_figure(const RecordDiff& diff);
 
 /// What changed in an item: between its figure's values if they are given, else in its records.

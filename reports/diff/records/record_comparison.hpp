@@ -51,7 +51,7 @@ struct PairedTest {
 struct Comparison {
   std::string subject;
   std::string current_subject;  ///< The same, unless its parameter changed.
-  std::string label = {};       ///< Of both for readers: "bearing, ISOMAP, K = 8 → …, K = 9".
+  SubjectLabel label = {};      ///< Of both: "bearing", "ISOMAP, K = 8 → ISOMAP, K = 9".
   Quantity quantity;            ///< From the dictionary, or as the study declares it.
   int pairs = 0;                ///< Runs that have it on both sides; of them …
   int equal = 0;
@@ -90,7 +90,7 @@ struct PointMove {
 /// The points of one record.
 struct PointsDiff {
   std::string record;
-  std::string label = {};  ///< Of the record for readers; empty: not known.
+  SubjectLabel label = {};  ///< Of the record, its run last; empty: not known.
   std::string quantity;    ///< "landmark_m", "landmark_shape" or "path_m".
   int points = 0;        ///< On both sides.
   int within = 0;

@@ -164,12 +164,14 @@ void compare_others(const RecordSet& a, const RecordSet& b, const Tolerances& to
       diff.others.push_back({.file = name, .presence = Presence::kCurrent});
 }
 
-/// "bearing, ISOMAP, K = 9, 2000 steps, layout-1-pose-2" of a record; empty: not known.
-std::string record_label(const std::string& record, const RecordSet& set) {
+/// "bearing", "ISOMAP, K = 9", "2000 steps", "layout-1-pose-2" of a record; empty: not known.
+SubjectLabel record_label(const std::string& record, const RecordSet& set) {
   const RecordName name = subject_of(record);
-  const auto label = set.labels.find(name.subject);
-  if (label == set.labels.end()) return "";
-  return label->second + (name.run.empty() ? "" : ", " + name.run);
+  const auto found = set.labels.find(name.subject);
+  if (found == set.labels.end()) return {};
+  SubjectLabel label = found->second;
+  if (!name.run.empty()) label.push_back(name.run);
+  return label;
 }
 
 }  // namespace

@@ -182,9 +182,18 @@ bool point_one_way(const std::vector<Comparison>& all) {
   return !worse || !better;
 }
 
-const std::string& label_of(const RecordSet& set, const std::string& subject) {
+SubjectLabel label_of(const RecordSet& set, const std::string& subject) {
   const auto label = set.labels.find(subject);
-  return label == set.labels.end() ? subject : label->second;
+  return label == set.labels.end() ? SubjectLabel{subject} : label->second;
+}
+
+/// Of both sides: parts that differ have an arrow between them.
+SubjectLabel joint_label(const SubjectLabel& before, const SubjectLabel& after) {
+  if (before.size() != after.size()) return {label_text(before) + " \u2192 " + label_text(after)};
+  SubjectLabel joint = before;
+  for (std::size_t i = 0; i < joint.size(); ++i)
+    if (after[i] != joint[i]) joint[i] += " \u2192 " + after[i];
+  return joint;
 }
 
 /// The quantities of the dictionary, and those that either side declares. Quantities that the sides
@@ -302,8 +311,7 @@ std::vector<Comparison> compare_series(const RecordSet& a, const RecordSet& b, b
       values += c.pairs + c.lost + c.gained;
       c.subject = subject;
       c.current_subject = other;
-      c.label = label_of(a, subject);
-      if (label_of(b, other) != c.label) c.label += " \u2192 " + label_of(b, other);
+      c.label = joint_label(label_of(a, subject), label_of(b, other));
       c.quantity = quantity;
       if (quantity.better == Better::kHigher) std::swap(c.worse, c.better);
       if (quantity.better == Better::kNeither || !same_seeds) c.worse = c.better = 0;

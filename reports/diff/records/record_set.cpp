@@ -93,19 +93,19 @@ std::string level_words(const StudyLabels& labels, const Level& level) {
   return shown_level(labels, level.factor, level_text(level)).words();
 }
 
-/// series_name() in the words of figures: "bearing, ISOMAP, K = 9, 2000 steps".
-std::string subject_label(const StudyContents& contents, const Result& row) {
+/// series_name() in the words of figures.
+SubjectLabel subject_label(const StudyContents& contents, const Result& row) {
   const auto setup = contents.labels.setups.find(row.at.setup);
-  std::string text =
-      setup == contents.labels.setups.end() ? std::string(row.at.setup) : setup->second;
+  SubjectLabel label;
   const auto add = [&](const std::string& part) {
-    if (!part.empty()) text += (text.empty() ? "" : ", ") + part;
+    if (!part.empty()) label.push_back(part);
   };
+  add(setup == contents.labels.setups.end() ? std::string(row.at.setup) : setup->second);
   add(method_text(contents.labels, row.method));
   const std::vector<Level>& levels = row.at.levels;
   for (const Level& level : levels) add(level_words(contents.labels, level));
   add(row.subject);
-  return text;
+  return label;
 }
 
 RecordSet set_of(StudyContents contents) {
@@ -211,6 +211,10 @@ RecordSet read_side(const fs::path& path, const EqualFiles& equal) {
 }
 
 }  // namespace
+
+std::string label_text(const SubjectLabel& label) {
+  return fmt::format("{}", fmt::join(label, ", "));
+}
 
 std::optional<fs::path> folder_of_record(const fs::path& root, const fs::path& file) {
   for (fs::path folder = file.parent_path();; folder = folder.parent_path()) {

@@ -38,6 +38,12 @@ struct SubjectFamily {
   std::string parameter;  ///< "K = 9"; empty: none.
 };
 
+/// What readers call a subject, part by part: "bearing", "ISOMAP, K = 9", "2000 steps".
+using SubjectLabel = std::vector<std::string>;
+
+/// "bearing, ISOMAP, K = 9, 2000 steps".
+std::string label_text(const SubjectLabel& label);
+
 /// The records of one side of a comparison, of any kind.
 struct RecordSet {
   std::string kind;  ///< StudyContents::kind.
@@ -56,8 +62,7 @@ struct RecordSet {
   std::map<std::string, SubjectFamily> families;  ///< By subject, where it has a parameter.
   /// Names in figures of subjects with a different name: the id of a single map.
   std::map<std::string, std::string> called;
-  /// Of subjects: "bearing, ISOMAP, K = 9, 2000 steps".
-  std::map<std::string, std::string> labels;
+  std::map<std::string, SubjectLabel> labels;  ///< By subject.
   /// Numbers by run_in_name(); NaN: there is no map, or no ground truth to score it.
   std::map<SeriesKey, ValuesByRun> values;
   std::map<std::string, std::string> statuses;  ///< Of a record: its codes, in order.

@@ -53,7 +53,7 @@ Row row_of(const Comparison& c) {
   while (before.decimals == after.decimals && before.decimals < kMostDecimals &&
          before.value != after.value && format_cell(before) == format_cell(after))
     ++before.decimals, ++after.decimals;
-  Row row{{user_text(c.label), TextCell{label_with_unit(c.quantity)}, before, after,
+  Row row{{user_text(label_text(c.label)), TextCell{label_with_unit(c.quantity)}, before, after,
            TextCell{runs_text(c)}},
           "",
           false};

@@ -153,7 +153,8 @@ TEST(ChangeFigure, OfRecordsShowsTheLandmarksThatMovedAndTheScoresOfTheRuns) {
   move.current = {1, 1};
   move.moved = 1.4;
   Comparison comparison;
-  comparison.subject = comparison.label = "bearing/isomap";
+  comparison.subject = "bearing/isomap";
+  comparison.label = {comparison.subject};
   comparison.quantity.label = "MPE";
   comparison.quantity.unit = "m";
   comparison.beyond = 2;
@@ -292,21 +293,54 @@ TEST(DiffPage, ReadsTheEscapesOfAMarkdownTable) {
 TEST(ChangeFigure, OfRecordsBeginsWithWhatGotWorse) {
   RecordDiff diff;
   for (const auto& [subject, outcome] :
-       {std::pair("bearing/lpca", Outcome::kChanged), std::pair("bearing/sde", Outcome::kBetter),
-        std::pair("bearing/isomap", Outcome::kWorse)}) {
+       {std::pair("LPCA", Outcome::kChanged), std::pair("SDE", Outcome::kBetter),
+        std::pair("ISOMAP", Outcome::kWorse)}) {
     Comparison comparison;
-    comparison.subject = subject;
+    comparison.label = {"bearing", subject};
     comparison.quantity = known_quantity("mpe_m");
     comparison.beyond = 1;
     comparison.values = {{0.1, 0.2}};
     comparison.outcome = outcome;
-    comparison.label = std::string(subject) == "bearing/isomap" ? "bearing, ISOMAP" : subject;
     diff.comparisons.push_back(comparison);
   }
   const auto figure = change_figure(diff);
   ASSERT_TRUE(figure);
-  EXPECT_EQ(figure->panels.front().title, "bearing, ISOMAP");
+  EXPECT_EQ(figure->panels.front().title, "ISOMAP");
   EXPECT_EQ(figure->panels.size(), 3U);
+}
+
+/// The titles of the panels of some comparisons, each under its label; that of the figure first.
+std::vector<std::string> titles_of(const std::vector<SubjectLabel>& labels) {
+  RecordDiff diff;
+  for (const SubjectLabel& label : labels) {
+    Comparison& comparison = diff.comparisons.emplace_back();
+    comparison.label = label;
+    comparison.quantity = known_quantity("mpe_m");
+    comparison.beyond = 1;
+    comparison.values = {{0.1, 0.2}};
+    comparison.outcome = Outcome::kWorse;
+  }
+  const auto figure = change_figure(diff);
+  std::vector<std::string> titles;
+  if (!figure) return titles;
+  titles.push_back(figure->title);
+  for (const Panel& panel : figure->panels) titles.push_back(panel.title);
+  return titles;
+}
+
+TEST(ChangeFigure, OfRecordsNamesOnceWhatAllPanelsShareAndInEachWhatDistinguishesIt) {
+  const std::string method =
+      "Graph SLAM with switchable constraints and dynamic covariance scaling";
+  EXPECT_EQ(
+      titles_of({{"indoors", method, "noise 0.1"},
+                 {"outdoors", method, "noise 0.1"},
+                 {"indoors", method, "noise 0.2"}}),
+      (std::vector<std::string>{"What changed in the records: " + method, "indoors\nnoise 0.1",
+                                "outdoors\nnoise 0.1", "indoors\nnoise 0.2"}));
+  EXPECT_EQ(titles_of({{"indoors", "EKF"}}),
+            (std::vector<std::string>{"What changed in the records: indoors, EKF", ""}));
+  EXPECT_EQ(titles_of({{"a", "b"}, {"b", "a"}}),
+            (std::vector<std::string>{"What changed in the records", "a\nb", "b\na"}));
 }
 
 TEST(CommonAxes, HoldWhatEitherFigureShows) {
