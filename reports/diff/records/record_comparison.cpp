@@ -17,6 +17,7 @@ namespace mapproof {
 namespace {
 
 constexpr std::size_t kMostRecordNames = 3;
+constexpr std::size_t kLongestName = 200;  // Of labels, whose levels come last.
 
 constexpr double kSignificant = 0.05;
 
@@ -27,7 +28,7 @@ double reported_effect(const Comparison& c) {
 
 std::string names_text(const std::vector<std::string>& names) {
   std::vector<std::string> shown;
-  for (const std::string& name : names) shown.push_back(printable(name));
+  for (const std::string& name : names) shown.push_back(printable(name, kLongestName));
   return listed(shown, kMostRecordNames);
 }
 
@@ -68,9 +69,9 @@ void judge_presence(const RecordDiff& diff, Judgement& whole, std::vector<std::s
                                  noun, names.size() == 1 ? "" : "s", names_text(names)));
   };
   add(diff.missing_runs, Verdict::kMissing, "run");
-  add(diff.missing_subjects, Verdict::kMissing, "record");
+  add(labels_of(diff, diff.missing_subjects), Verdict::kMissing, "record");
   add(diff.new_runs, Verdict::kNew, "run");
-  add(diff.new_subjects, Verdict::kNew, "record");
+  add(labels_of(diff, diff.new_subjects), Verdict::kNew, "record");
 }
 
 /// "; it is probably better, but there are too few runs to be sure", where this quantity alone
@@ -109,8 +110,8 @@ void judge_comparisons(const RecordDiff& diff, Judgement& whole, std::vector<std
   if (first == nullptr || verdict_of(first->outcome) <= Verdict::kWithinTolerance) return;
   const auto beyond = std::ranges::count_if(
       all, [](const Comparison* c) { return verdict_of(c->outcome) > Verdict::kWithinTolerance; });
-  causes.push_back(fmt::format("{} of {}{}{}{}{}", comparison_text(*first), first->subject,
-                               test_words(*first), tendency_words(*first),
+  causes.push_back(fmt::format("{} of {}{}{}{}{}", comparison_text(*first),
+                               label_text(first->label), test_words(*first), tendency_words(*first),
                                beyond > 1
                                    ? fmt::format("; {} {}, too", counted(beyond - 1, "other score"),
                                                  beyond == 2 ? "differs" : "differ")
@@ -289,6 +290,16 @@ std::string other_text(const OtherDiff& other) {
                                              other.beyond == 1 ? "differs" : "differ");
   return fmt::format("{}: {}, the first at {} {} \u2192 {}", file, what, printable(other.first),
                      printable(other.baseline), printable(other.current));
+}
+
+std::vector<std::string> labels_of(const RecordDiff& diff,
+                                   const std::vector<std::string>& subjects) {
+  std::vector<std::string> labels;
+  for (const std::string& subject : subjects) {
+    const auto label = diff.labels.find(subject);
+    labels.push_back(label == diff.labels.end() ? subject : label_text(label->second));
+  }
+  return labels;
 }
 
 std::string settings_text(const RecordDiff& diff) {

@@ -145,6 +145,7 @@ struct RecordDiff {
   std::vector<SettingChange> provenance;  ///< Versions: reported, never judged.
   std::vector<std::string> missing_runs, new_runs;
   std::vector<std::string> missing_subjects, new_subjects;
+  std::map<std::string, SubjectLabel> labels;  ///< Of the missing and the new subjects.
   std::vector<Comparison> comparisons;     ///< Those that are not equal in all runs.
   std::vector<Quantity> declared;          ///< Quantities that either side declares.
   std::vector<QuantityChange> redeclared;  ///< Those with different units are not compared.
@@ -175,6 +176,10 @@ std::string other_text(const OtherDiff& other);
 
 /// The verdict that follows from an outcome.
 Verdict verdict_of(Outcome outcome);
+
+/// Missing or new subjects as readers call them; the id of one without a label.
+std::vector<std::string> labels_of(const RecordDiff& diff,
+                                   const std::vector<std::string>& subjects);
 
 /// "seed 0 → 5", "K = 6 → K = 7 of bearing/isomap/2000": the differences of the experiments; empty
 /// if there are none.

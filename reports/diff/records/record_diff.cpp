@@ -74,6 +74,13 @@ void compare_subjects(const RecordSet& a, const RecordSet& b, RecordDiff& diff) 
   }
   for (const std::string& subject : there)
     if (!matched.contains(subject)) diff.new_subjects.push_back(subject);
+  const auto add_labels = [&](const std::vector<std::string>& subjects, const RecordSet& side) {
+    for (const std::string& subject : subjects)
+      if (const auto label = side.labels.find(subject); label != side.labels.end())
+        diff.labels.insert(*label);
+  };
+  add_labels(diff.missing_subjects, a);
+  add_labels(diff.new_subjects, b);
 }
 
 /// Whether both sides should have a record. Records that are missing because of runs, subjects or

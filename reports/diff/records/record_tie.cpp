@@ -157,7 +157,7 @@ Judgement tied_judgement(const std::string& id, const FigureDiff& diff, const Ju
     why += ", " +
            (of_run != shown.end() && !ties.run.empty()
                 ? comparison_text(**of_run, ties.run)
-                : comparison_text(*first) + " of " + first->subject) +
+                : comparison_text(*first) + " of " + label_text(first->label)) +
            directions_text(ties.comparisons, *first);
   }
   judgement.cause = fmt::format("{} changed because {}", id, why);

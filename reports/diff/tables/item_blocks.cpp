@@ -150,8 +150,8 @@ void add_presence(std::vector<Block>& blocks, const RecordDiff& diff) {
   };
   add("Runs missing", diff.missing_runs);
   add("Runs new", diff.new_runs);
-  add("Subjects missing", diff.missing_subjects);
-  add("Subjects new", diff.new_subjects);
+  add("Subjects missing", labels_of(diff, diff.missing_subjects));
+  add("Subjects new", labels_of(diff, diff.new_subjects));
   add("Different anchors in", diff.anchors);
   for (const RecordProblem& problem : diff.problems)
     if (facts.items.size() < kMostTableRows)

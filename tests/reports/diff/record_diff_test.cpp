@@ -386,6 +386,20 @@ TEST(RecordDiff, AnotherDirectionIsAChangeOfMeaning) {
             "of gain lower is better in the baseline and higher in the current");
 }
 
+TEST(RecordDiff, NamesSubjectsByTheirLabelsAndByTheirIdsWithoutOne) {
+  RecordSet before = set_of(3);
+  before.labels["bearing/lpca/100"] = {"bearing", "local PCA", "100 steps"};
+  RecordSet after = before;
+  change(values(after), [](const Name&, double& value) { value += 0.5; });
+  const auto cause = [&] { return record_diff(before, after).judgement.cause; };
+  EXPECT_NE(cause().find(" of bearing, local PCA, 100 steps"), std::string::npos) << cause();
+  after.values.clear();
+  EXPECT_NE(cause().find("missing record: bearing, local PCA, 100 steps"), std::string::npos)
+      << cause();
+  before.labels.clear();
+  EXPECT_NE(cause().find("missing record: bearing/lpca/100"), std::string::npos) << cause();
+}
+
 TEST(RecordDiff, OneMoreStepOfAMapIsASettingAndNoOtherRecord) {
   const test::TemporaryFolder folder;
   const auto map_of = [&](const std::string& name, int steps, double mpe_m) {

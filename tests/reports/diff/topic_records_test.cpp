@@ -69,7 +69,7 @@ TEST(TopicRecords, CompareWhatAStudyDeclaresUnderItsNameWithDirectionAndTest) {
   EXPECT_EQ(share.comparisons[0].quantity, study_quantity("found", "found", "%", Better::kHigher));
   EXPECT_EQ(share.comparisons[0].subject, "all/joint");
   EXPECT_EQ(share.comparisons[0].outcome, Outcome::kWorse);
-  EXPECT_NE(share.judgement.cause.find("found 90 \u2192 80 % over 2 runs of all/joint"),
+  EXPECT_NE(share.judgement.cause.find("found 90 \u2192 80 % over 2 runs of All, Joint"),
             std::string::npos)
       << share.judgement.cause;
 }
