@@ -38,4 +38,13 @@ ScaledUnit scaled_unit(const std::string& unit, double greatest) {
   return {unit};
 }
 
+ScaledUnit scaled_unit(const Quantity& quantity, double greatest) {
+  return quantity.label == "MPE" ? ScaledUnit{quantity.unit} : scaled_unit(quantity.unit, greatest);
+}
+
+Quantity in_unit(Quantity quantity, const ScaledUnit& unit) {
+  quantity.unit = unit.unit;
+  return quantity;
+}
+
 }  // namespace mapproof

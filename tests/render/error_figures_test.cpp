@@ -461,6 +461,11 @@ TEST(ScaledUnit, HasNeitherPowersNorManyZeros) {
   EXPECT_EQ(words("%", 1e-9), "1e-09 %");
 }
 
+TEST(ScaledUnit, OfAnMpeIsM) {
+  EXPECT_EQ(scaled_unit(known_quantity("mpe_m"), 1e-5).unit, "m");
+  EXPECT_EQ(scaled_unit(Quantity{.label = "ATE", .unit = "m"}, 1e-5).unit, "mm");
+}
+
 TEST(ScaledUnit, ThatIsAPowerIsKnownAsOne) {
   EXPECT_EQ(power_of(scaled_unit("ppm", 4.6e-9).unit), -15);
   EXPECT_EQ(power_of("mm"), std::nullopt);

@@ -228,7 +228,9 @@ std::optional<NamedPanel> panel_of_points(const std::vector<PointsDiff>& all) {
 /// The values of one quantity, run by run; empty: there is no pair of numbers.
 std::optional<NamedPanel> panel_of(const Comparison& comparison) {
   Scatter runs{.colour = ThemeColour::kSeries1};
-  for (const Point& pair : comparison.values) runs.x.push_back(pair.x), runs.y.push_back(pair.y);
+  const ScaledUnit unit = shown_unit(comparison);
+  for (const Point& pair : comparison.values)
+    runs.x.push_back(unit.factor * pair.x), runs.y.push_back(unit.factor * pair.y);
   if (runs.x.empty()) return std::nullopt;
   const auto [low_x, high_x] = std::ranges::minmax(runs.x);
   const auto [low_y, high_y] = std::ranges::minmax(runs.y);
@@ -238,10 +240,7 @@ std::optional<NamedPanel> panel_of(const Comparison& comparison) {
                        .y = {low, high},
                        .colour = ThemeColour::kMuted,
                        .dash = Dash::kDashed};
-  const Quantity& quantity = comparison.quantity;
-  const std::string name = quantity.unit.empty()
-                               ? quantity.label
-                               : fmt::format("{} [{}]", quantity.label, quantity.unit);
+  const std::string name = label_with_unit(in_unit(comparison.quantity, unit));
   const std::string all = counted(comparison.pairs, "run");
   runs.label = std::cmp_equal(runs.x.size(), comparison.pairs)
                    ? all

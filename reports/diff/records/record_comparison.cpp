@@ -312,9 +312,11 @@ std::string settings_text(const RecordDiff& diff) {
 
 std::string comparison_text(const Comparison& comparison, const std::string& run) {
   const Quantity& quantity = comparison.quantity;
+  const ScaledUnit unit = shown_unit(comparison);
   const auto changed = [&](double baseline, double current) {
-    return change_text(baseline, current, quantity.unit,
-                       has_great_errors(quantity, std::min(baseline, current)));
+    return change_text(
+        unit.factor * baseline, unit.factor * current, unit.unit,
+        unit.unit == quantity.unit && has_great_errors(quantity, std::min(baseline, current)));
   };
   const auto own = std::ranges::find(comparison.largest, run, &PairedValue::run);
   const bool has_own = own != comparison.largest.end();
@@ -400,6 +402,10 @@ std::string_view name(Presence presence) {
       return "current";
   }
   return "";
+}
+
+ScaledUnit shown_unit(const Comparison& comparison) {
+  return scaled_unit(comparison.quantity, comparison.greatest_mean);
 }
 
 bool has_p(const Comparison& comparison) {

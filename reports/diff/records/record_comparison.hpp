@@ -8,6 +8,7 @@
 
 #include "core/statistics/paired_change.hpp"
 #include "render/base/geometry.hpp"
+#include "render/figures/unit_scale.hpp"
 #include "reports/diff/records/record_set.hpp"
 #include "reports/diff/verdict/tolerances.hpp"
 #include "reports/diff/verdict/verdict.hpp"
@@ -63,6 +64,7 @@ struct Comparison {
   int gained = 0;              ///< Runs with a value only in the current.
   double baseline_mean = 0.0;  ///< Over the pairs, or without pairs over all; NaN: none.
   double current_mean = 0.0;
+  double greatest_mean = 0.0;  ///< Of its quantity over all comparisons, of either side.
   std::vector<PairedValue>
       largest;                     ///< Beyond tolerance, the largest difference first; at most 20.
   std::vector<Point> values = {};  ///< Of the pairs of finite values, baseline and current, in the
@@ -70,6 +72,9 @@ struct Comparison {
   std::optional<PairedTest> test;  ///< With three or more units of equal seeds.
   Outcome outcome = Outcome::kEqual;
 };
+
+/// The unit in which texts, tables and figures show the values of its quantity, as reports do.
+ScaledUnit shown_unit(const Comparison& comparison);
 
 /// Whether a test gave a p: equal changes have none by Student's t.
 bool has_p(const Comparison& comparison);

@@ -254,6 +254,15 @@ void test_all(std::vector<Comparison>& all, const std::vector<PairedUnits>& unit
   }
 }
 
+void set_greatest_means(std::vector<Comparison>& all) {
+  std::map<std::string, double> greatest;  // By quantity.
+  for (const Comparison& one : all)
+    for (const double mean : {one.baseline_mean, one.current_mean})
+      if (std::isfinite(mean))
+        greatest[one.quantity.id] = std::max(greatest[one.quantity.id], std::abs(mean));
+  for (Comparison& one : all) one.greatest_mean = greatest[one.quantity.id];
+}
+
 }  // namespace
 
 bool have_same_seeds(const RecordSet& a, const RecordSet& b, const Tolerances& tolerances) {
@@ -321,6 +330,7 @@ std::vector<Comparison> compare_series(const RecordSet& a, const RecordSet& b, b
       all.push_back(std::move(c));
     }
   }
+  set_greatest_means(all);
   test_all(all, units);
   const bool one_way = point_one_way(all);
   for (Comparison& one : all) one.outcome = outcome_of(one, same_seeds, one_way, options);

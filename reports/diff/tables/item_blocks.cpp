@@ -40,8 +40,10 @@ std::string runs_text(const Comparison& c) {
 }
 
 Row row_of(const Comparison& c) {
-  const double scale = std::max(std::abs(c.baseline_mean), std::abs(c.current_mean));
-  const bool errors_m = has_great_errors(c.quantity, std::min(c.baseline_mean, c.current_mean));
+  const ScaledUnit unit = shown_unit(c);
+  const double scale = unit.factor * std::max(std::abs(c.baseline_mean), std::abs(c.current_mean));
+  const bool errors_m = unit.unit == c.quantity.unit &&
+                        has_great_errors(c.quantity, std::min(c.baseline_mean, c.current_mean));
   const auto mean = [&](double value) {
     // Digits that distinguish small values are those of a value that is shown.
     const double shown = errors_m && scale > kGreatestError_m ? std::abs(value) : scale;
@@ -49,12 +51,13 @@ Row row_of(const Comparison& c) {
     cell.error_m = errors_m;
     return cell;
   };
-  NumberCell before = mean(c.baseline_mean), after = mean(c.current_mean);
+  NumberCell before = mean(unit.factor * c.baseline_mean);
+  NumberCell after = mean(unit.factor * c.current_mean);
   while (before.decimals == after.decimals && before.decimals < kMostDecimals &&
          before.value != after.value && format_cell(before) == format_cell(after))
     ++before.decimals, ++after.decimals;
-  Row row{{user_text(label_text(c.label)), TextCell{label_with_unit(c.quantity)}, before, after,
-           TextCell{runs_text(c)}},
+  Row row{{user_text(label_text(c.label)), TextCell{label_with_unit(in_unit(c.quantity, unit))},
+           before, after, TextCell{runs_text(c)}},
           "",
           false};
   row.cells.push_back(has_p(c) ? Cell(p_cell(c.test->p)) : Cell(MissingCell{}));
@@ -210,8 +213,8 @@ void add_summary_table(std::vector<Block>& blocks, const RecordDiff& diff,
   };
   for (const QuantityDifferences& one : difference_summary(diff))
     table.rows.push_back(
-        {{TextCell{label_with_unit(one.quantity)}, count(one.records), count(one.worse),
-          count(one.better), quantile(one.low), quantile(one.median), quantile(one.high)},
+        {{TextCell{one.quantity.label}, count(one.records), count(one.worse), count(one.better),
+          quantile(one.low), quantile(one.median), quantile(one.high)},
          "",
          false});
   const long rows = std::ssize(table.rows);

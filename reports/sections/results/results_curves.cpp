@@ -195,12 +195,11 @@ std::optional<Note> intervals_note(const ResultsView& view, const Curves& curves
       ThemeColour::kMuted};
 }
 
-/// In a unit in which the values of the curves need no power of ten; an MPE is in m everywhere.
+/// In a unit in which the values of the curves need no power of ten.
 /// @param great_errors  See ResultsView::has_great_errors(): what diverged asks for no unit.
 /// @return The quantity with that unit.
 Quantity scale_to_unit(const Quantity& quantity, bool great_errors, Curves& curves,
                        std::vector<ErrorPoint>& points) {
-  if (quantity.label == "MPE") return quantity;
   double greatest = 0.0;
   const auto for_each_value = [&](std::vector<ErrorLine>& lines, auto&& visit) {
     for (ErrorLine& line : lines)
@@ -213,11 +212,9 @@ Quantity scale_to_unit(const Quantity& quantity, bool great_errors, Curves& curv
   for_each_value(shown_lines, [&](double& value) {
     if (std::abs(value) <= most) greatest = std::max(greatest, std::abs(value));
   });
-  const ScaledUnit unit = scaled_unit(quantity.unit, greatest);
+  const ScaledUnit unit = scaled_unit(quantity, greatest);
   for_each_value(curves.lines, [&](double& value) { value *= unit.factor; });
-  Quantity shown = quantity;
-  shown.unit = unit.unit;
-  return shown;
+  return in_unit(quantity, unit);
 }
 
 /// Whether repeated runs are too few for intervals: titles then rank no methods.

@@ -400,6 +400,23 @@ TEST(RecordDiff, NamesSubjectsByTheirLabelsAndByTheirIdsWithoutOne) {
   EXPECT_NE(cause().find("missing record: bearing/lpca/100"), std::string::npos) << cause();
 }
 
+TEST(RecordDiff, ShowsAllValuesOfAQuantityInTheUnitThatKeepsThemShort) {
+  RecordSet before = table_of(3, 2, study_quantity("scan_s", "time per scan", "s", Better::kLower));
+  for (const char* subject : {"s/ekf", "s/slow"})
+    for (const char* run : {"1-1", "1-2", "2-1", "2-2", "3-1", "3-2"})
+      before.values[{subject, "scan_s"}][run] = subject[2] == 'e' ? 4e-4 : 0.02;
+  RecordSet after = before;
+  for (auto& [key, values] : after.values)
+    change(values, [](const Name&, double& value) { value *= 2.0; });
+  const RecordDiff diff = record_diff(before, after);
+  ASSERT_EQ(diff.comparisons.size(), 2U);
+  for (const Comparison& comparison : diff.comparisons)
+    EXPECT_EQ(shown_unit(comparison).unit, "ms") << comparison.subject;
+  EXPECT_TRUE(comparison_text(diff.comparisons[0])
+                  .starts_with("time per scan 0.400 \u2192 0.800 ms over 6 runs"))
+      << comparison_text(diff.comparisons[0]);
+}
+
 TEST(RecordDiff, OneMoreStepOfAMapIsASettingAndNoOtherRecord) {
   const test::TemporaryFolder folder;
   const auto map_of = [&](const std::string& name, int steps, double mpe_m) {

@@ -173,6 +173,19 @@ TEST(ChangeFigure, OfRecordsShowsTheLandmarksThatMovedAndTheScoresOfTheRuns) {
   EXPECT_FALSE(change_figure(RecordDiff{}));
 }
 
+TEST(ChangeFigure, OfRecordsIsInTheUnitOfTheirReport) {
+  RecordDiff diff;
+  Comparison& comparison = diff.comparisons.emplace_back();
+  comparison.quantity = {.id = "scan_s", .label = "time per scan", .unit = "s"};
+  comparison.beyond = 1;
+  comparison.values = {{0.02, 0.04}};
+  comparison.greatest_mean = 0.04;
+  const auto figure = change_figure(diff);
+  ASSERT_TRUE(figure);
+  EXPECT_EQ(figure->panels[0].x.label, "baseline: time per scan [ms]");
+  EXPECT_DOUBLE_EQ(layers_of<Scatter>(figure->panels[0])[0].y[0], 40.0);
+}
+
 TEST(ChangeFigure, LegendSaysHowManyOfTheRunsAreShown) {
   RecordDiff diff;
   Comparison& comparison = diff.comparisons.emplace_back();
