@@ -1,7 +1,9 @@
 #include "render/plot/axes_layout.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -50,6 +52,8 @@ constexpr double kWidestName = 9.0;  // Of a tick's label, em; numbers are short
 // Of a row's label: wider in a frame that has the room.
 constexpr double kLeastRowName = 13.5, kWidestRowName = 16.0;
 constexpr double kRowNameShare = 0.38;     // Of the frame's width.
+constexpr double kRowHeight = 1.6;         // Of a row whose name is one line, em.
+constexpr std::size_t kMostRows = 100;     // Of more, not all have their names.
 constexpr double kLeastTickGap = 0.25;     // Between labels of ticks that cannot be fewer, em.
 constexpr std::size_t kFewestToHalve = 3;  // Of labels that touch; two are left.
 constexpr std::size_t kFewestLabels = 3;   // Where there is room.
@@ -57,15 +61,31 @@ constexpr double kLeastUpward = 1.8;       // Distance of labels one above the o
 constexpr double kLeastAcross = 2.4;       // and of short ones beside each other.
 constexpr double kLabelLine = 1.55;        // From the foot of tick labels to the axis label's, em.
 
-/// Shortens names, which may come from anywhere.
+/// Names, which may come from anywhere, in lines of that width.
 TickLabels shaped(Ticks ticks, const Theme& theme, double widest_em = kWidestName) {
   TickLabels labels{std::move(ticks), {}, 0.0};
   for (const std::string& text : labels.ticks.labels) {
-    labels.texts.push_back(
-        shape_text_within(label_in(theme, text), widest_em, Elide::kEnd, theme.font.get()));
-    labels.widest = std::max(labels.widest, labels.texts.back().advance);
+    labels.texts.push_back(name_lines(theme, text, widest_em));
+    labels.widest = std::max(labels.widest, labels.width(labels.texts.size() - 1));
   }
   return labels;
+}
+
+/// What the lines of a label take after the first one, em.
+double further_lines_of(const TickLabels& labels) {
+  const std::size_t lines = labels.lines();
+  return lines == 0 ? 0.0 : kNameLineStep * static_cast<double>(lines - 1);
+}
+
+bool is_number(const std::string& text) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+/// What a row's name may take across, em.
+double widest_row_name(double frame_width, double em) {
+  return std::clamp(kRowNameShare * frame_width / em, kLeastRowName, kWidestRowName);
 }
 
 /// Every second tick, the others without a label.
@@ -201,6 +221,18 @@ double further_lines(const std::vector<ShapedText>& lines, double em) {
   return lines.empty() ? 0.0 : static_cast<double>(lines.size() - 1) * FontFacts::kLine * em;
 }
 
+double TickLabels::width(std::size_t i) const {
+  double widest = 0.0;
+  for (const ShapedText& line : texts[i]) widest = std::max(widest, line.advance);
+  return widest;
+}
+
+std::size_t TickLabels::lines() const {
+  std::size_t most = 0;
+  for (const std::vector<ShapedText>& lines : texts) most = std::max(most, lines.size());
+  return most;
+}
+
 AxesLayout::AxesLayout(const Panel& panel, const Theme& theme, AxisLabels shown)
     : panel_(panel), theme_(theme), shown_(shown), limits_(panel_limits(panel)) {}
 
@@ -236,11 +268,50 @@ PanelMap AxesLayout::map(const Box& frame) const {
           AxisMap(panel_.y.scale, limits_.y, frame.y1, frame.y0)};
 }
 
-double AxesLayout::below_frame() const {
+double AxesLayout::below_frame(const Axes& axes) const {
   if (panel_.bare) return 0.0;
   const double label = has_x_label() ? kLabelLine * theme_.font_pt : 0.0;
-  const double ticks = shown_.x_ticks ? tick_gap() + FontFacts::kAscent * theme_.tick_font_pt : 0.0;
+  const double lines = FontFacts::kAscent + further_lines_of(axes.x);
+  const double ticks = shown_.x_ticks ? tick_gap() + lines * theme_.tick_font_pt : 0.0;
   return tick_length() + ticks + label;
+}
+
+double AxesLayout::height_of_names(double width) const {
+  const std::vector<std::string>& names = panel_.y.names;
+  if (names.size() > kMostRows || std::ranges::all_of(names, is_number)) return 0.0;
+  const double em = theme_.tick_font_pt;
+  std::vector<double> heights;
+  for (const std::string& name : names)
+    heights.push_back(
+        kNameLineStep *
+        static_cast<double>(name_lines(theme_, name, widest_row_name(width, em)).size()));
+  // No name may reach the next one, or over the frame.
+  const auto last = static_cast<double>(names.size() - 1);
+  double row = std::max({kRowHeight, 0.5 * heights.front() / std::max(0.5, -limits_.y.low),
+                         0.5 * heights.back() / std::max(0.5, limits_.y.high - last)});
+  for (std::size_t i = 1; i < heights.size(); ++i)
+    row = std::max(row, 0.5 * (heights[i - 1] + heights[i]) + kRowHeight - kNameLineStep);
+  const double rows = row > kRowHeight ? limits_.y.high - limits_.y.low : last + 1.0;
+  return std::min(rows, last + 2.0) * row * em + 1.0;
+}
+
+/// All names, or as many as have room.
+TickLabels AxesLayout::named_rows(const Box& frame) const {
+  const double em = theme_.tick_font_pt, widest = widest_row_name(frame.width(), em);
+  const auto most = [&](int count) {
+    return shaped(
+        enough_ticks(panel_.y, limits_.y, std::max(2, count), frame.height(), kLeastUpward), theme_,
+        widest);
+  };
+  const double for_all = height_of_names(frame.width());
+  if (for_all > 0.0 && frame.height() >= for_all - 1.0)
+    return most(static_cast<int>(panel_.y.names.size()));
+  const auto with = [&](double row_em) {
+    return most(static_cast<int>(frame.height() / (row_em * em)));
+  };
+  TickLabels rows = with(kRowHeight);
+  const double further = further_lines_of(rows);
+  return further > 0.0 ? with(kRowHeight + further) : rows;
 }
 
 FrameNumbers AxesLayout::numbers(const Axes& axes) const {
@@ -285,15 +356,12 @@ void AxesLayout::choose_ticks(Axes& axes) const {
   } else {
     axes.x =
         shaped(enough_ticks(panel_.x, limits_.x, most_x, axes.frame.width(), kLeastAcross), theme_);
-    const bool is_named = !panel_.y.names.empty();
-    const int most = panel_.y.scale == Scale::kLog ? std::max(most_y, 3)
-                     : is_named
-                         ? std::max(2, static_cast<int>(axes.frame.height() / (kNameLine * em)))
-                         : most_y;
-    const double row_em =
-        std::clamp(kRowNameShare * axes.frame.width() / em, kLeastRowName, kWidestRowName);
-    axes.y = shaped(enough_ticks(panel_.y, limits_.y, most, axes.frame.height(), kLeastUpward),
-                    theme_, is_named ? row_em : kWidestName);
+    const int most = panel_.y.scale == Scale::kLog ? std::max(most_y, 3) : most_y;
+    axes.y =
+        panel_.y.names.empty()
+            ? shaped(enough_ticks(panel_.y, limits_.y, most, axes.frame.height(), kLeastUpward),
+                     theme_)
+            : named_rows(axes.frame);
   }
   if (labels_touch(axes) && axes.x.ticks.at.size() > 2)
     axes.x = shaped(ticks_for(panel_.x, limits_.x, most_x), theme_);
@@ -326,8 +394,7 @@ bool AxesLayout::labels_touch(const Axes& axes, double gap_em) const {
   const double em = theme_.tick_font_pt;
   for (std::size_t i = 0; i + 1 < axes.x.texts.size(); ++i) {
     const double room = x(axes.x.ticks.at[i + 1]) - x(axes.x.ticks.at[i]);
-    if ((axes.x.texts[i].advance + axes.x.texts[i + 1].advance) / 2.0 * em + gap_em * em > room)
-      return true;
+    if ((axes.x.width(i) + axes.x.width(i + 1)) / 2.0 * em + gap_em * em > room) return true;
   }
   return false;
 }
@@ -344,11 +411,11 @@ Margins AxesLayout::margins(const Axes& axes) const {
                                                  theme_.font_pt)
           : 0.0;
   const double y_ticks = axes.y.texts.empty() ? 0.0 : axes.y.widest * em + tick_gap();
-  const double last = axes.x.texts.empty() ? 0.0 : axes.x.texts.back().advance * em / 2.0;
+  const double last = axes.x.texts.empty() ? 0.0 : axes.x.width(axes.x.texts.size() - 1) * em / 2.0;
   m.left = std::max(m.left, y_label + y_ticks + tick_length());
   m.top = std::max(m.top, 0.4 * em);
   m.right = std::max({m.right, last, theme_.hairline_pt});
-  m.bottom = std::max(m.bottom, below_frame());
+  m.bottom = std::max(m.bottom, below_frame(axes));
   return m;
 }
 

@@ -31,8 +31,13 @@ void draw_colour_bar(const Panel& panel, std::size_t panel_index, const Box& fra
 /// Ticks and their labels, shaped.
 struct TickLabels {
   Ticks ticks;
-  std::vector<ShapedText> texts;
-  double widest = 0.0;  ///< In em.
+  std::vector<std::vector<ShapedText>> texts;  ///< Of each, in lines.
+  double widest = 0.0;                         ///< In em.
+
+  /// Of the widest line of one, in em.
+  double width(std::size_t i) const;
+  /// The most of one; 0 without labels.
+  std::size_t lines() const;
 };
 
 /// The label of an axis with the factor of its ticks.
@@ -65,9 +70,6 @@ struct AxisLabels {
 /// Finds a frame's place in the room it is given, and its ticks.
 class AxesLayout {
  public:
-  /// Of a frame's height, for each name along it, em of the tick labels.
-  static constexpr double kNameLine = 1.6;
-
   AxesLayout(const Panel& panel, const Theme& theme, AxisLabels shown = {});
 
   /// The largest frame in `room` that leaves space for labels; empty or turned round if there is
@@ -84,18 +86,23 @@ class AxesLayout {
   /// What the labels of those axes count.
   FrameNumbers numbers(const Axes& axes) const;
 
+  /// How high a frame of that width is at least, so that each of its rows' names has room; 0 of
+  /// more than a hundred, and of numbers, of which a reader misses none.
+  double height_of_names(double width) const;
+
   double tick_length() const { return 0.6 * theme_.space_pt; }
   const Panel& panel() const { return panel_; }
   const Theme& theme() const { return theme_; }
   double tick_gap() const { return 0.6 * theme_.space_pt; }
-  /// From the frame down to the foot of the axis label, in points.
-  double below_frame() const;
+  /// From the frame of those axes down to the foot of the axis label, in points.
+  double below_frame(const Axes& axes) const;
   bool has_x_label() const { return shown_.x_label && !panel_.bare && !panel_.x.label.empty(); }
   bool has_y_label() const { return shown_.y_label && !panel_.bare && !panel_.y.label.empty(); }
 
  private:
   void choose_ticks(Axes& axes) const;
   void choose_equal_ticks(Axes& axes, int most_x, int most_y) const;
+  TickLabels named_rows(const Box& frame) const;
   bool labels_touch(const Axes& axes, double gap_em = 0.7) const;
   Ticks ticks_for(const Axis& axis, Range range, int most) const;
   Ticks enough_ticks(const Axis& axis, Range range, int most, double length, double least) const;

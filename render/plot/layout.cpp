@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "render/plot/axes_layout.hpp"
 #include "render/plot/drawing.hpp"
 #include "render/plot/figure.hpp"
 #include "render/plot/layers.hpp"
@@ -130,15 +131,18 @@ constexpr double kMostFree = 0.1;     // Of a page, below everything that is dra
 constexpr double kHighestPage = 684.0;  // In points: of a printed page with a caption.
 constexpr int kMostStretches = 6, kMostPages = 3;
 
-/// The height of the page at which the only frame has its share of it.
+/// The height of the page at which the only frame has its share of it, and each row its name.
 double height_for_frame(const Figure& figure, const Theme& theme, const Drawing& drawing) {
   const double frame = drawing.frames[0].height();
   if (figure.panels[0].bare || (figure.panels[0].equal_aspect && theme.draws_title))
     return drawing.height + kLeastOfPage * theme.height_pt - frame;
   // Around the frame everything keeps its height.
   const double head = theme.draws_title ? head_height(figure, theme) : 0.0;
-  return head + (drawing.height - head - frame) /
-                    (1.0 - (theme.draws_title ? kLeastWithTitle : kLeastWithout));
+  const double for_share = head + (drawing.height - head - frame) /
+                                      (1.0 - (theme.draws_title ? kLeastWithTitle : kLeastWithout));
+  const AxesLayout axes(figure.panels[0], theme);
+  return std::max(for_share,
+                  drawing.height + axes.height_of_names(drawing.frames[0].width()) - frame);
 }
 
 /// What of the height of a page the frames of several panels take, 0 to 1: what has a frame, not
@@ -214,19 +218,30 @@ Drawing lay_out_rows(const Figure& figure, const Theme& theme) {
   return drawing;
 }
 
-/// Whether texts at points are closer than half an em; lines of one text may be.
+/// A page that holds all texts at points below each other, in points.
+double height_of_texts(const Drawing& drawing) {
+  double height = 0.0;
+  for (const Item& item : drawing.items)
+    if (item.item_class == ItemClass::kMarkLabel)
+      height += FontFacts::kLine * std::get<TextLine>(item.what).size;
+  return height;
+}
+
+/// Whether texts at points are closer than half an em, one above the other; lines of one text may
+/// be.
 bool has_crowded_texts(const Drawing& drawing) {
   constexpr double kGap = 0.25;  // Around a line, em.
-  std::vector<std::pair<Box, std::string>> lines;
+  std::vector<std::pair<Box, const TextLine*>> lines;
   for (const Item& item : drawing.items) {
     if (item.item_class != ItemClass::kMarkLabel) continue;
     const auto& line = std::get<TextLine>(item.what);
     const Box box = text_box(line).grown(kGap * line.size);
     if (std::ranges::any_of(lines, [&](const auto& other) {
-          return box.overlaps(other.first) && (line.whole.empty() || line.whole != other.second);
+          return box.overlaps(other.first) && line.at.y != other.second->at.y &&
+                 (line.whole.empty() || line.whole != other.second->whole);
         }))
       return true;
-    lines.emplace_back(box, line.whole);
+    lines.emplace_back(box, &line);
   }
   return false;
 }
@@ -255,9 +270,10 @@ Drawing lay_out(const Figure& figure, const Theme& theme) {
       drawing = std::move(lower);
       break;
     }
-  // Names of several lines beside a diagram need higher rows.
+  // Names of several lines beside a diagram need higher rows, however high the page gets by them.
+  const double highest = std::max(kHighestPage, height_of_texts(drawing));
   for (double height = drawing.height * kHigher;
-       figure.panels[0].bare && !figure.panels[0].equal_aspect && height <= kHighestPage &&
+       figure.panels[0].bare && !figure.panels[0].equal_aspect && height <= highest &&
        has_crowded_texts(drawing);
        height *= kHigher)
     drawing = lay_out_on(figure, theme, height);

@@ -20,16 +20,10 @@ constexpr double kRowHeight = 1.45;
 constexpr double kLineHeight = 1.2;  // Of a further line of an entry.
 
 /// The label in lines of at most `most` em where titles are not drawn, on paper: a name is read
-/// whole. In one line, elided in its middle, where that is not enough, and on pages, which break
-/// lines themselves.
+/// whole. In one line, elided in its middle, on pages, which break lines themselves.
 std::vector<ShapedText> lines_of(const std::string& label, double most, const Theme& theme) {
-  constexpr std::size_t kMostLines = 3;
-  if (!theme.draws_title) {
-    auto lines = wrap_text(label, most, kMostLines, theme.font.get());
-    const auto is_cut = [](const ShapedText& line) { return line.text.ends_with("…"); };
-    if (std::ranges::none_of(lines, is_cut)) return lines;
-  }
-  return {shape_text_within(label, most, Elide::kMiddle, theme.font.get())};
+  if (!theme.draws_title) return name_lines(theme, label, most);
+  return {shape_text_within(label_in(theme, label), most, Elide::kMiddle, theme.font.get())};
 }
 
 /// In points, what a sample needs to show two periods of each dash of the panel, with a dash at
@@ -178,7 +172,7 @@ Legend::Legend(const Panel& panel, const Theme& theme, double most_width_pt, boo
         same->in_colours |= std::get<Scatter>(**kind).colour != points->colour;
       continue;
     }
-    entries_.push_back({lines_of(label_in(theme, label), most_text, theme), label, {&layer}});
+    entries_.push_back({lines_of(label, most_text, theme), label, {&layer}});
     entry_width_ = std::max(entry_width_, width_of(entries_.back()));
   }
   // What stands for points comes before what stands for lines between them.

@@ -23,13 +23,6 @@ constexpr int kRings = 14;
 constexpr double kMostOfFrame = 0.35;  // Of its width, for a label.
 constexpr int kMostOrders = 8;         // In which labels are tried to be placed.
 
-/// A label without its place.
-struct Label {
-  Point at;  ///< What it is a label of.
-  TextLine line;
-  Point size;  ///< With a gap around.
-};
-
 struct LabelBox {
   Box box;
   bool far = false;  ///< Needs a leader.
@@ -126,11 +119,44 @@ std::vector<Box> texts_in(const Panel& panel, const PanelMap& map, const Theme& 
   return boxes;
 }
 
+/// A label in lines.
+struct LabelShape {
+  std::vector<ShapedText> lines;
+  Box bounds = {};  ///< Of all lines, from the start of the first one, em.
+};
+
+LabelShape stacked(std::vector<ShapedText> lines) {
+  LabelShape label{std::move(lines)};
+  for (std::size_t i = 0; i < label.lines.size(); ++i) {
+    const Box line = label.lines[i].bounds.moved(0.0, kNameLineStep * static_cast<double>(i));
+    label.bounds = i == 0 ? line : label.bounds.united(line);
+  }
+  return label;
+}
+
+/// How a label may be drawn, the best first: a long one whole in lines, or else elided.
+std::vector<LabelShape> shapes_of(const Theme& theme, const std::string& label, double most,
+                                  const std::vector<std::string>& others) {
+  const ShapedText line = shape_label_within(theme, label, most, others);
+  std::vector<LabelShape> shapes;
+  if (is_elided(line)) shapes.push_back(stacked(name_lines(theme, label, most)));
+  shapes.push_back(stacked({line}));
+  return shapes;
+}
+
+/// A label without its place.
+struct Label {
+  Point at;  ///< What it is a label of.
+  std::string text;
+  ThemeColour colour;
+  std::vector<LabelShape> shapes;  ///< The best first.
+};
+
 /// The labels of a panel, in order, as far as their points are drawn.
-std::vector<Label> labels_in(const AxesLayout& layout, const Box& frame, double gap) {
+std::vector<Label> labels_in(const AxesLayout& layout, const Box& frame) {
   const Theme& theme = layout.theme();
   const PanelMap map = layout.map(frame);
-  const double em = theme.tick_font_pt;
+  const double most = kMostOfFrame * frame.width() / theme.tick_font_pt;
   std::vector<std::string> names;
   for (const Layer& layer : layout.panel().layers)
     if (const auto* labels = std::get_if<PointLabels>(&layer))
@@ -142,14 +168,8 @@ std::vector<Label> labels_in(const AxesLayout& layout, const Box& frame, double 
     for (std::size_t i = 0; i < labels->x.size(); ++i) {
       const Point at = map(labels->x[i], labels->y[i]);
       if (std::isnan(at.x + at.y)) continue;
-      TextLine line{.shaped = shape_label_within(theme, labels->text[i],
-                                                 kMostOfFrame * frame.width() / em, names),
-                    .size = em,
-                    .colour = theme.of(labels->colour)};
-      if (line.shaped.text != labels->text[i]) line.whole = labels->text[i];
-      const Box bounds = line.shaped.bounds;
       found.push_back(
-          {at, std::move(line), {bounds.width() * em + 2 * gap, bounds.height() * em + 2 * gap}});
+          {at, labels->text[i], labels->colour, shapes_of(theme, labels->text[i], most, names)});
     }
   }
   return found;
@@ -157,9 +177,22 @@ std::vector<Label> labels_in(const AxesLayout& layout, const Box& frame, double 
 
 /// A label and its leader, where it has been placed.
 struct PlacedLabel {
+  LabelShape shape;
   LabelBox place;
   std::optional<Shape> leader = {};
 };
+
+/// The first of the shapes that finds a free box.
+std::optional<PlacedLabel> placed_label(const Label& label, const Surroundings& around, double gap,
+                                        const Theme& theme) {
+  const double em = theme.tick_font_pt;
+  for (const LabelShape& shape : label.shapes) {
+    const Point size{shape.bounds.width() * em + 2 * gap, shape.bounds.height() * em + 2 * gap};
+    if (const auto place = find_free_box(label.at, size, around, theme))
+      return PlacedLabel{shape, *place};
+  }
+  return std::nullopt;
+}
 
 /// Places labels one after the other. @return By label; none for one that fits nowhere.
 std::vector<std::optional<PlacedLabel>> placed_in_order(const std::vector<Label>& labels,
@@ -168,17 +201,17 @@ std::vector<std::optional<PlacedLabel>> placed_in_order(const std::vector<Label>
                                                         const Theme& theme) {
   std::vector<std::optional<PlacedLabel>> placed(labels.size());
   for (const std::size_t i : order) {
-    const Point at = labels[i].at;
-    const auto place = find_free_box(at, labels[i].size, around, theme);
-    if (!place) continue;
-    placed[i] = PlacedLabel{*place};
-    if (place->far) {
-      placed[i]->leader = leader_line(at, nearest_in(place->box.grown(-0.5 * gap), at), theme);
+    placed[i] = placed_label(labels[i], around, gap, theme);
+    if (!placed[i]) continue;
+    const Box& box = placed[i]->place.box;
+    if (placed[i]->place.far) {
+      const Point at = labels[i].at;
+      placed[i]->leader = leader_line(at, nearest_in(box.grown(-0.5 * gap), at), theme);
       const std::vector<Point>& ends = placed[i]->leader->path.points;
       around.taken.lines.push_back({ends[0], ends[1], theme.hairline_pt});
     }
-    around.taken.boxes.push_back(place->box);
-    around.texts.push_back(place->box);
+    around.taken.boxes.push_back(box);
+    around.texts.push_back(box);
   }
   return placed;
 }
@@ -208,19 +241,26 @@ std::vector<std::optional<PlacedLabel>> placed(const std::vector<Label>& labels,
 void draw_mark_labels(const AxesLayout& layout, std::size_t panel_index, const Box& frame,
                       Obstacles taken, Drawing& drawing) {
   const Theme& theme = layout.theme();
-  const double gap = 0.25 * theme.space_pt;
+  const double em = theme.tick_font_pt, gap = 0.25 * theme.space_pt;
   const Surroundings around{frame.grown(-gap), std::move(taken),
                             texts_in(layout.panel(), layout.map(frame), theme)};
-  std::vector<Label> labels = labels_in(layout, frame, gap);
+  const std::vector<Label> labels = labels_in(layout, frame);
   const auto places = placed(labels, around, gap, theme);
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (!places[i]) continue;
-    TextLine& line = labels[i].line;
-    const Box &box = places[i]->place.box, bounds = line.shaped.bounds;
-    line.at = {box.x0 + gap - bounds.x0 * line.size, box.y0 + gap - bounds.y0 * line.size};
-    if (const auto& leader = places[i]->leader)
-      drawing.add(ItemClass::kLeader, panel_index, *leader).clipped = true;
-    drawing.add(ItemClass::kMarkLabel, panel_index, std::move(line));
+    const auto& [shape, place, leader] = *places[i];
+    if (leader) drawing.add(ItemClass::kLeader, panel_index, *leader).clipped = true;
+    Point baseline{place.box.x0 + gap - shape.bounds.x0 * em,
+                   place.box.y0 + gap - shape.bounds.y0 * em};
+    for (const ShapedText& line : shape.lines) {
+      drawing.add_text(ItemClass::kMarkLabel, panel_index,
+                       {.shaped = line,
+                        .whole = labels[i].text,
+                        .at = baseline,
+                        .size = em,
+                        .colour = theme.of(labels[i].colour)});
+      baseline.y += kNameLineStep * em;
+    }
   }
 }
 

@@ -16,18 +16,12 @@ constexpr int kSlices = 8;
 constexpr int kShades = 32;
 constexpr int kLineShades = 64;
 constexpr double kTextShareOfPage = 0.37;  // The width of a text at a point.
-constexpr std::size_t kFewestTextLines = 5;  // That a text beside a point may have, and
-constexpr std::size_t kMostTextLines = 12;   // those of few texts, which share a page of
-constexpr std::size_t kLinesOfPage = 64;
-constexpr double kTextLineStep = 1.15;     // From one of them to the next, em.
 
 Point cubic_at(Point a, Point b, Point c, Point d, double t) {
   const double s = 1.0 - t;
   const double wa = s * s * s, wb = 3.0 * s * s * t, wc = 3.0 * s * t * t, wd = t * t * t;
   return {wa * a.x + wb * b.x + wc * c.x + wd * d.x, wa * a.y + wb * b.y + wc * c.y + wd * d.y};
 }
-
-bool is_elided(const ShapedText& text) { return text.text.find("\u2026") != std::string::npos; }
 
 /// Where a value stands on the ramp, 0 to 1 within the limits.
 double ramp_share(double value, const ColourScale& colours) {
@@ -234,21 +228,16 @@ std::vector<TextLine> placed_text(const Texts& texts, std::size_t i, const Panel
   if (std::isnan(at.x + at.y)) return {};
   const double em = theme.tick_font_pt, most = kTextShareOfPage * theme.width_pt / em;
   std::vector<ShapedText> shaped{shape_label_within(theme, texts.text[i], most, texts.text)};
-  if (is_elided(shaped.front()) && texts.align != Align::kMiddle) {
-    const std::size_t share =
-        std::clamp(kLinesOfPage / texts.text.size(), kFewestTextLines, kMostTextLines);
-    std::vector<ShapedText> lines =
-        wrap_text(label_in(theme, texts.text[i]), most, share, theme.font.get());
-    if (std::ranges::none_of(lines, is_elided)) shaped = std::move(lines);
-  }
+  if (is_elided(shaped.front()) && texts.align != Align::kMiddle)
+    shaped = name_lines(theme, texts.text[i], most);
   std::vector<TextLine> lines;
-  const double first = -0.5 * kTextLineStep * static_cast<double>(shaped.size() - 1);
+  const double first = -0.5 * kNameLineStep * static_cast<double>(shaped.size() - 1);
   for (ShapedText& one : shaped) {
     const double width = one.advance * em;
     const double left = texts.align == Align::kStart ? 0.0
                         : texts.align == Align::kEnd ? width
                                                      : width / 2.0;
-    const double down = first + kTextLineStep * static_cast<double>(lines.size());
+    const double down = first + kNameLineStep * static_cast<double>(lines.size());
     TextLine& line = lines.emplace_back(
         TextLine{.shaped = std::move(one), .size = em, .colour = theme.of(texts.colour)});
     line.at = {at.x - left, at.y + (down + FontFacts::kCapHeight / 2.0) * em};

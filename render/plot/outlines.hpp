@@ -41,8 +41,8 @@ std::vector<Shape> cell_shapes(const Cells& cells, const PanelMap& map, const Th
 /// The texts of cells in black or white, whichever reads better; none if one of them does not fit.
 std::vector<TextLine> cell_texts(const Cells& cells, const PanelMap& map, const Theme& theme);
 
-/// The i-th text at its place, no wider than .37 of the page: a longer one beside its point in up
-/// to twelve lines, fewer of more than five texts, else elided. Empty if its position holds a NaN.
+/// The i-th text at its place, no wider than .37 of the page: a longer one beside its point in
+/// lines, see name_lines(). Empty if its position holds a NaN.
 std::vector<TextLine> placed_text(const Texts& texts, std::size_t i, const PanelMap& map,
                                   const Theme& theme);
 

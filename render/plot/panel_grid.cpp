@@ -214,9 +214,10 @@ class SharedGrid {
     if (panels_.front().equal_aspect) return stretch_ * std::min(width_ / aspect(), 1.2 * most);
     const double usual =
         stretch_ * std::min(std::max(kHeightOfWidth * width_, kLeastHeight * theme_.font_pt), most);
-    // A row that is named needs its name.
-    const auto names = static_cast<double>(panels_.front().y.names.size());
-    return std::max(usual, names * AxesLayout::kNameLine * theme_.tick_font_pt + 1.0);
+    double names = 0.0;
+    for (const AxesLayout& layout : layouts_)
+      names = std::max(names, layout.height_of_names(width_));
+    return std::max(usual, names);
   }
 
   double grid_width() const {
@@ -385,9 +386,10 @@ class CellGrid {
         const Box cell{room_.x0, room_.y0, room_.x0 + width, room_.y0 + height};
         Drawing attempt;
         lay_out_panel(panel, 0, cell, theme_, attempt);  // The only panel of the attempt.
-        const double frame = attempt.frames.back().height();
-        if (frame >= kTooLow * theme_.font_pt) break;
-        height += kLowestFrame * theme_.font_pt - frame;
+        const Box& frame = attempt.frames.back();
+        const double names = AxesLayout(panel, theme_).height_of_names(frame.width());
+        if (frame.height() >= std::max(kTooLow * theme_.font_pt, names)) break;
+        height += std::max(kLowestFrame * theme_.font_pt, names) - frame.height();
       }
     }
     return height;

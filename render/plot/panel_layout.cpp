@@ -7,6 +7,7 @@
 #include "render/plot/legend.hpp"
 #include "render/plot/line_ends.hpp"
 #include "render/plot/mark_labels.hpp"
+#include "render/plot/short_names.hpp"
 
 namespace mapproof {
 namespace {
@@ -62,21 +63,35 @@ class AxesPainter {
     const Box& f = axes_.frame;
     const double em = theme_.tick_font_pt;
     const double away = layout_.tick_length() + layout_.tick_gap();
-    for (std::size_t i = 0; i < axes_.x.texts.size(); ++i) {
-      const ShapedText& text = axes_.x.texts[i];
-      const Point at{map_.x(axes_.x.ticks.at[i]) - text.advance * em / 2.0,
-                     f.y1 + away + FontFacts::kCapHeight * em};
-      drawing_.add_text(
-          ItemClass::kTickLabel, index_,
-          {.shaped = text, .whole = text.text, .at = at, .size = em, .colour = theme_.text});
-    }
+    for (std::size_t i = 0; i < axes_.x.texts.size(); ++i)
+      draw_label(axes_.x, i, [&](double width, double down) {
+        return Point{map_.x(axes_.x.ticks.at[i]) - width / 2.0,
+                     f.y1 + away + FontFacts::kCapHeight * em + down};
+      });
     for (std::size_t i = 0; i < axes_.y.texts.size(); ++i) {
-      const ShapedText& text = axes_.y.texts[i];
-      const Point at{f.x0 - away - text.advance * em,
-                     map_.y(axes_.y.ticks.at[i]) + FontFacts::kCapHeight * em / 2.0};
-      drawing_.add_text(
-          ItemClass::kTickLabel, index_,
-          {.shaped = text, .whole = text.text, .at = at, .size = em, .colour = theme_.text});
+      const double above =
+          kNameLineStep * em * static_cast<double>(axes_.y.texts[i].size() - 1) / 2.0;
+      draw_label(axes_.y, i, [&](double width, double down) {
+        return Point{f.x0 - away - width,
+                     map_.y(axes_.y.ticks.at[i]) + FontFacts::kCapHeight * em / 2.0 + down - above};
+      });
+    }
+  }
+
+  /// @param place  Of a line, by its width and how far it is below the first one.
+  template <typename Place>
+  void draw_label(const TickLabels& labels, std::size_t i, const Place& place) {
+    const double em = theme_.tick_font_pt;
+    const std::vector<ShapedText>& lines = labels.texts[i];
+    double down = 0.0;
+    for (const ShapedText& line : lines) {
+      drawing_.add_text(ItemClass::kTickLabel, index_,
+                        {.shaped = line,
+                         .whole = lines.size() > 1 ? labels.ticks.labels[i] : line.text,
+                         .at = place(line.advance * em, down),
+                         .size = em,
+                         .colour = theme_.text});
+      down += kNameLineStep * em;
     }
   }
 
@@ -96,7 +111,7 @@ class AxesPainter {
           {.shaped = text,
            .whole = whole,
            .at = {std::clamp(f.centre().x - width / 2.0, left, std::max(left, right - width)),
-                  f.y1 + layout_.below_frame() - FontFacts::kDescent * em},
+                  f.y1 + layout_.below_frame(axes_) - FontFacts::kDescent * em},
            .size = em,
            .colour = theme_.text});
     }
@@ -139,7 +154,7 @@ class AxesPainter {
   PanelMap map_;
 };
 
-constexpr std::size_t kMostTitleLines = 2;
+constexpr std::size_t kMostTitleLines = 8;  // They hold a long name in the narrowest panel.
 constexpr double kLeastBeside = 0.5;  // Of the room's width, for a frame beside a legend.
 
 /// Where everything of a panel goes.

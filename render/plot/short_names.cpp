@@ -118,4 +118,17 @@ ShapedText shape_label_within(const Theme& theme, const std::string& label, doub
   return shape_text_within(with_parts(bare, kShortest), most, Elide::kMiddle, theme.font.get());
 }
 
+std::vector<ShapedText> name_lines(const Theme& theme, const std::string& label, double most) {
+  // In .37 of a journal's column they hold the 400 characters that a line has at most.
+  constexpr std::size_t kMostLines = 24;
+  const std::string text = label_in(theme, label);
+  const Font* font = theme.font.get();
+  if (ShapedText whole = shape_text(text, font); whole.advance <= most) return {std::move(whole)};
+  std::vector<ShapedText> lines = wrap_text(text, most, kMostLines, font, WordBreak::kAnywhere);
+  if (!lines.empty() && !is_elided(lines.back())) return lines;
+  return {shape_text_within(text, most, Elide::kMiddle, font)};
+}
+
+bool is_elided(const ShapedText& text) { return text.text.find("\u2026") != std::string::npos; }
+
 }  // namespace mapproof

@@ -28,4 +28,14 @@ std::string label_in(const Theme& theme, const std::string& label);
 ShapedText shape_label_within(const Theme& theme, const std::string& label, double most,
                               const std::vector<std::string>& others);
 
+/// The label in the theme in lines of at most `most` em, as many as it takes: words that are wider
+/// are broken, too. One that has no end in a figure is one line with a "…" in its middle.
+std::vector<ShapedText> name_lines(const Theme& theme, const std::string& label, double most);
+
+/// From one line of a name to the next, em.
+inline constexpr double kNameLineStep = 1.15;
+
+/// Whether a part of the text is left out.
+bool is_elided(const ShapedText& text);
+
 }  // namespace mapproof

@@ -335,10 +335,21 @@ bool may_end_line(std::string_view text, std::size_t blank) {
   return !is_number || std::ranges::find(kUnits, word) == kUnits.end();
 }
 
+/// The size of the longest start of a word that fits, of one character at least.
+std::size_t part_that_fits(std::string_view word, double most, const Font* font) {
+  std::size_t fits = 1, too_many = std::min(count_code_points(word), kMostCodePoints) + 1;
+  while (too_many - fits > 1) {
+    const std::size_t middle = (fits + too_many) / 2;
+    const std::string_view start = word.substr(0, prefix_bytes(word, middle));
+    (shape_text(start, font).advance <= most ? fits : too_many) = middle;
+  }
+  return prefix_bytes(word, fits);
+}
+
 /// The size of the longest start of a word that ends with a dash and fits; 0 if none does.
 std::size_t part_of_word(std::string_view word, double most, const Font* font) {
   std::size_t size = 0;
-  for (const std::string_view dash : {"-", "\u2013"})
+  for (const std::string_view dash : {"-", "\u2013", "_", "/"})
     for (std::size_t at = word.find(dash, 1); at != std::string_view::npos;
          at = word.find(dash, at + 1))
       if (const std::size_t end = at + dash.size();
@@ -350,15 +361,15 @@ std::size_t part_of_word(std::string_view word, double most, const Font* font) {
 }  // namespace
 
 std::vector<ShapedText> wrap_text(std::string_view text, double most, std::size_t lines,
-                                  const Font* font) {
+                                  const Font* font, WordBreak word_break) {
   std::vector<ShapedText> wrapped;
   while (!text.empty() && wrapped.size() < lines) {
     if (wrapped.size() + 1 == lines || shape_text(text, font).advance <= most) {
       wrapped.push_back(shape_text_within(text, most, Elide::kEnd, font));
       break;
     }
-    // The longest start that ends before a blank and fits; a word that never fits ends behind a
-    // dash, or is elided.
+    // The longest start that ends before a blank and fits; a word that never fits is broken, or is
+    // elided.
     std::size_t end = std::string_view::npos;
     for (std::size_t blank = text.find(' '); blank != std::string_view::npos;
          blank = text.find(' ', blank + 1)) {
@@ -368,12 +379,16 @@ std::vector<ShapedText> wrap_text(std::string_view text, double most, std::size_
       if (!fits) break;
     }
     end = std::min(end, text.size());
-    if (shape_text(text.substr(0, end), font).advance > most)
-      if (const std::size_t part = part_of_word(text.substr(0, end), most, font); part > 0) {
+    if (const std::string_view word = text.substr(0, end); shape_text(word, font).advance > most) {
+      std::size_t part = part_of_word(word, most, font);
+      if (part == 0 && word_break == WordBreak::kAnywhere) part = part_that_fits(word, most, font);
+      if (part > 0) {
         wrapped.push_back(shape_text(text.substr(0, part), font));
         text.remove_prefix(part);
+        if (part == end && !text.empty()) text.remove_prefix(1);  // The blank.
         continue;
       }
+    }
     wrapped.push_back(shape_text_within(text.substr(0, end), most, Elide::kEnd, font));
     text.remove_prefix(std::min(end + 1, text.size()));
   }

@@ -96,11 +96,18 @@ enum class Elide { kEnd, kMiddle };
 ShapedText shape_text_within(std::string_view text, double most, Elide elide = Elide::kEnd,
                              const Font* font = nullptr);
 
+/// Where a line may end within a word that is wider than it.
+enum class WordBreak {
+  kBehindDashes,  ///< And behind "_" and "/"; without one of them the word is elided.
+  kAnywhere,      ///< Where there is none of them.
+};
+
 /// The words of `text` in lines no wider than `most`, at most `lines` of them, the last one elided.
-/// No line ends within "K = 7", or between a number and its unit; within a word only behind a dash,
-/// if the word is too wide.
+/// No line ends within "K = 7", or between a number and its unit; within a word only if that is too
+/// wide.
 std::vector<ShapedText> wrap_text(std::string_view text, double most, std::size_t lines,
-                                  const Font* font = nullptr);
+                                  const Font* font = nullptr,
+                                  WordBreak word_break = WordBreak::kBehindDashes);
 
 /// The outline of a glyph of the font, in units of 1/2048 em, y downward. Safe from any thread.
 Outline glyph_outline(std::uint32_t glyph, const Font* font = nullptr);

@@ -15,6 +15,7 @@
 #include "render/plot/axis_map.hpp"
 #include "render/plot/layers.hpp"
 #include "tests/support/images/figure_checks.hpp"
+#include "tests/support/images/figure_rules.hpp"
 #include "tests/support/samples/drawn_panels.hpp"
 #include "tests/support/samples/sample_comparisons.hpp"
 #include "tests/support/samples/sample_figures.hpp"
@@ -376,6 +377,74 @@ TEST(Layout, BreaksLongNamesBesideARankDiagramIntoLinesInAJournalsColumn) {
       EXPECT_NE(words.find(spec.methods[i].label), std::string::npos) << words;
     for (const std::string& flaw : flaws(drawing)) ADD_FAILURE() << flaw;
   }
+}
+
+std::string long_name(std::size_t i) {
+  return "Graph-based simultaneous localisation and mapping with switchable constraints and "
+         "dynamic covariance scaling (g2o back end) " +
+         std::to_string(i);
+}
+
+/// Expects no text of the figure to be cut, or to cover another one, on pages and on paper.
+void expect_whole(const Figure& figure) {
+  for (const Theme& theme : {report_theme(), paper_theme(3.25)}) {
+    for (const std::string& broken : broken_rules(figure, theme))
+      EXPECT_EQ(broken.find(" is cut"), std::string::npos) << figure.id << ": " << broken;
+    for (const std::string& flaw : flaws(lay_out(figure, theme)))
+      ADD_FAILURE() << theme.name << ", " << figure.id << ": " << flaw;
+  }
+}
+
+TEST(Layout, CutsNoNameBesideARankDiagramOfManyMethods) {
+  for (const std::size_t methods : {15, 22, 30}) {
+    CriticalDifferenceSpec spec = sample_ranks(2);
+    spec.title = "Ranks";
+    spec.methods.clear();
+    for (std::size_t i = 0; i < methods; ++i)
+      spec.methods.push_back({"M" + std::to_string(i), 1.0 + static_cast<double>(i)});
+    spec.methods[2].label = long_name(2);
+    spec.methods.back().label = long_name(methods - 1);
+    expect_whole(critical_difference_figure(spec));
+  }
+}
+
+TEST(Layout, MakesAPageAsHighAsLongNamesOfAllMethodsNeed) {
+  CriticalDifferenceSpec spec = sample_ranks(2);
+  spec.methods.clear();
+  for (std::size_t i = 0; i < 16; ++i)
+    spec.methods.push_back({long_name(i), 1.0 + static_cast<double>(i)});
+  expect_whole(critical_difference_figure(spec));
+}
+
+TEST(Layout, CutsNoNameOfARowAndLeavesNoneOut) {
+  Panel panel;
+  panel.x.label = "MPE [m]";
+  Scatter dots;
+  for (std::size_t i = 0; i < 12; ++i) {
+    panel.y.names.push_back(i == 4 ? long_name(4) : "method " + std::to_string(i));
+    dots.x.push_back(0.1 * static_cast<double>(i));
+    dots.y.push_back(static_cast<double>(i));
+  }
+  panel.y.limits = Range{-0.6, 11.6};
+  panel.layers.push_back(dots);
+  for (const std::size_t panels : {1, 2}) {
+    Figure figure = with_panels(0);
+    figure.title = "Rows";
+    figure.panels.assign(panels, panel);
+    expect_whole(figure);
+    for (const Theme& theme : {report_theme(), paper_theme(3.25)}) {
+      std::multiset<std::string> names;
+      for (const TextLine& line : texts_of(lay_out(figure, theme), ItemClass::kTickLabel))
+        names.insert(line.whole.empty() ? line.shaped.text : line.whole);
+      for (const std::string& name : panel.y.names) EXPECT_GE(names.count(name), panels) << name;
+    }
+  }
+}
+
+TEST(Layout, CutsNoNameInALegendOnPaper) {
+  const Figure figure = with_lines({1.0, 3.0, 2.9}, long_name(1) + ", then " + long_name(2));
+  for (const std::string& broken : broken_rules(figure, paper_theme(3.25)))
+    EXPECT_EQ(broken.find(" is cut"), std::string::npos) << broken;
 }
 
 TEST(LineEnds, ThatAreFarFromTheRightSideNeedALegend) {

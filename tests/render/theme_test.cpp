@@ -349,6 +349,21 @@ TEST(WrapText, KeepsEquationsAndNumbersWithTheirUnitsTogether) {
     }
 }
 
+TEST(WrapText, BreaksWordsThatNeverFitIfItMayBreakAnywhere) {
+  const std::string name = "graph_slam/with_switchable_constraints and Kovarianzmatrizenskalierung";
+  std::string joined;
+  for (const ShapedText& line : wrap_text(name, 6.0, 20, nullptr, WordBreak::kAnywhere)) {
+    EXPECT_LE(line.advance, 6.0) << line.text;
+    joined += line.text;
+  }
+  std::string without_blanks = name;
+  std::erase(without_blanks, ' ');
+  EXPECT_EQ(joined, without_blanks);
+  const auto lines = wrap_text(name, 8.0, 20);
+  EXPECT_EQ(lines[0].text, "graph_slam/") << "a word ends behind a dash, \"_\" or \"/\"";
+  EXPECT_TRUE(lines.back().text.ends_with("\u2026")) << lines.back().text;
+}
+
 TEST(WrapText, DoesNotBreakAnEquationThatNeverFits) {
   const auto lines = wrap_text("K = 1234567 errs", 3.0, 9);
   ASSERT_EQ(lines.size(), 2u);

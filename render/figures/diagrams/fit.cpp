@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
@@ -17,8 +16,7 @@ namespace mapproof {
 namespace {
 
 constexpr std::size_t kMostTestRows = 16;
-constexpr std::size_t kLongestTestLabel = 40;  ///< Characters; the rest of a name is cut.
-constexpr double kLeastRatio = 0.03;           ///< Smaller ratios are drawn here.
+constexpr double kLeastRatio = 0.03;  ///< Smaller ratios are drawn here.
 
 /// Those that are drawn, the greatest first.
 std::vector<FitTestRow> drawn_rows(const FitTestsSpec& spec) {
@@ -56,7 +54,7 @@ Panel residual_panel(const FitResidualsSpec& spec, bool over_time, double start_
   const bool has_colours = spec.landmarks.size() <= kMostColours;
   std::vector<Scatter> points(has_colours ? spec.landmarks.size() : 1);
   for (std::size_t n = 0; n < points.size(); ++n)
-    points[n] = {.label = has_colours ? printable(spec.landmarks[n], 20) : "ranges",
+    points[n] = {.label = has_colours ? spec.landmarks[n] : "ranges",
                  .colour = series_colour(n),
                  .size = 0.4};
   const std::size_t step = (spec.ranges.size() + kMostRangesDrawn - 1) / kMostRangesDrawn;
@@ -119,7 +117,7 @@ Figure fit_tests_figure(const FitTestsSpec& spec) {
   std::vector<std::string> above;
   Segments from_bound{.colour = ThemeColour::kMuted, .width = 0.6};
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    panel.y.names.push_back(printable(rows[i].label, kLongestTestLabel));
+    panel.y.names.push_back(rows[i].label);
     most = std::max(most, 1.5 * rows[i].ratio);
     const double y = static_cast<double>(i);
     add_line(from_bound, {1.0, y}, {std::max(rows[i].ratio, kLeastRatio), y});

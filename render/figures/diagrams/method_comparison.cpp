@@ -20,8 +20,6 @@
 namespace mapproof {
 namespace {
 
-constexpr std::size_t kLongestMethodLabel = 30;  ///< Characters; the rest of a name is cut.
-
 bool is_drawn(double error_m) { return std::isfinite(error_m) && error_m > 0.0; }
 
 /// Those that a logarithmic axis takes, the greatest error first: row 0 is lowest.
@@ -116,7 +114,7 @@ void add_panel(Figure& figure, const PublishedErrorsSpec::Sensor& sensor, const 
   for (std::size_t i = 0; i < methods.size(); ++i) {
     const PublishedError& method = methods[i];
     const double y = static_cast<double>(i);
-    panel.y.names.push_back(printable(method.label, kLongestMethodLabel));
+    panel.y.names.push_back(method.label);
     const bool has_diverged = method.mean_m > axis.ceiling;
     if (method.interval && is_drawn(method.interval->low) && !has_diverged) {
       add_line(intervals, {method.interval->low, y}, {method.interval->high, y});
@@ -138,7 +136,8 @@ void add_panel(Figure& figure, const PublishedErrorsSpec::Sensor& sensor, const 
 constexpr std::size_t kMostMethods = 30;
 constexpr double kBarStep = 0.4;  // Between bars, in rows of labels.
 constexpr std::size_t kColumnLabel = 17;  // Characters in a line of a label, in a journal's column.
-constexpr std::size_t kMostFurtherLines = 4;
+constexpr std::size_t kMostFurtherLines = 23;  // A name in a figure has no more.
+constexpr double kFurtherLine = 0.5;           // In rows: on wider pages a label has fewer lines.
 
 void require_consistent(const CriticalDifferenceSpec& spec) {
   const auto refuse = [&spec](const std::string& what) {
@@ -161,6 +160,7 @@ class Diagram {
     for (const RankedMethod& method : methods_) ranks.push_back(method.mean_rank);
     groups_ = alike_groups(ranks, spec.critical_difference);
     highest_ = std::max(2.0, static_cast<double>(methods_.size()));
+    place_rows();
   }
 
   Panel panel() {
@@ -172,8 +172,7 @@ class Diagram {
     panel.bare = true;
     const double margin = 0.02 * (highest_ - 1.0);
     panel.x.limits = Range{1.0 - margin, highest_ + margin};
-    panel.y.limits =
-        Range{-first_row() - row_step() * static_cast<double>(left_count()) + 0.4, 2.9};
+    panel.y.limits = Range{-first_row() - rows_ + 0.4, 2.9};
     panel.layers = {lines_, bars_, difference_, open_difference_, dots_, numbers_, left_, right_};
     std::erase_if(panel.layers, is_empty);
     return panel;
@@ -188,12 +187,24 @@ class Diagram {
  private:
   void draw_axis() {
     add_line(lines_, {1.0, 0.0}, {highest_, 0.0});
-    const int step = highest_ > 16.0 ? 5 : highest_ > 6.0 ? 2 : 1;
+    const int step = number_step();
     for (int rank = 1; rank <= static_cast<int>(highest_); ++rank) {
       add_line(lines_, {static_cast<double>(rank), 0.0}, {static_cast<double>(rank), 0.25});
       if ((rank - 1) % step == 0)
         add_text(numbers_, {static_cast<double>(rank), 0.75}, std::to_string(rank));
     }
+  }
+
+  /// From one rank with a number to the next: between long names the axis is short in a column of a
+  /// journal.
+  int number_step() const {
+    constexpr double kMostSteps = 5.0;
+    int step = highest_ > 16.0 ? 5 : highest_ > 6.0 ? 2 : 1;
+    const bool are_long = std::ranges::any_of(methods_, [](const RankedMethod& method) {
+      return short_name(method.label).size() > kColumnLabel / 2;
+    });
+    while (are_long && (highest_ - 1.0) / step > kMostSteps) step = step == 2 ? 5 : 2 * step;
+    return step;
   }
 
   /// The length of the critical difference above the axis; an arrow if it is longer than the axis.
@@ -220,8 +231,7 @@ class Diagram {
   void draw_method(std::size_t i) {
     const double rank = methods_[i].mean_rank;
     const bool to_left = i < left_count();
-    const auto row = static_cast<double>(to_left ? i : methods_.size() - 1 - i);
-    const double y = -first_row() - row_step() * row;
+    const double y = -first_row() - below_first_[i];
     add_line(lines_, {rank, 0.0}, {rank, y});
     add_line(lines_, {rank, y}, {to_left ? 1.0 : highest_, y});
     add_point(dots_, {rank, 0.0});
@@ -236,13 +246,27 @@ class Diagram {
   }
 
   std::size_t left_count() const { return (methods_.size() + 1) / 2; }
-  /// From one row of labels to the next: they have several lines in a column of a journal.
-  double row_step() const {
-    std::size_t longest = 0;
-    for (const RankedMethod& method : methods_)
-      longest = std::max(longest, short_name(method.label).size());
-    return 1.0 + 0.5 * static_cast<double>(std::min(longest / kColumnLabel, kMostFurtherLines));
+
+  /// What a label takes of a side, in rows: it has several lines in a column of a journal.
+  static double height_of(const RankedMethod& method) {
+    const std::size_t further = short_name(method.label).size() / kColumnLabel;
+    return 1.0 + kFurtherLine * static_cast<double>(std::min(further, kMostFurtherLines));
   }
+
+  /// Each side from above to below, the best and the worst method first.
+  void place_rows() {
+    below_first_.resize(methods_.size());
+    double left = 0.0, right = 0.0;
+    const auto place = [&](std::size_t i, double& taken) {
+      const double height = height_of(methods_[i]);
+      below_first_[i] = taken + (height - 1.0) / 2.0;
+      taken += height;
+    };
+    for (std::size_t i = 0; i < left_count(); ++i) place(i, left);
+    for (std::size_t i = methods_.size(); i-- > left_count();) place(i, right);
+    rows_ = std::max(left, right);
+  }
+
   /// Below all bars.
   double first_row() const { return kBarStep * static_cast<double>(groups_.size()) + 0.8; }
 
@@ -250,6 +274,8 @@ class Diagram {
   std::vector<RankedMethod> methods_;
   std::vector<std::vector<int>> groups_;
   double highest_ = 2.0;
+  std::vector<double> below_first_;  ///< From the first row to the middle of each label, in rows.
+  double rows_ = 0.0;                ///< What the side with more of them takes.
   Segments lines_{.colour = ThemeColour::kText, .width = 0.6};
   Segments bars_{.colour = ThemeColour::kSeries2, .width = 3.0};
   Segments difference_{.colour = ThemeColour::kText};

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "core/base/errors.hpp"
 #include "core/base/text/error_text.hpp"
 #include "core/base/text/number_text.hpp"
 #include "render/base/span.hpp"
@@ -17,7 +16,6 @@
 namespace mapproof {
 namespace {
 
-constexpr std::size_t kLongestName = 30;  ///< Characters on an axis; the rest of a name is cut.
 constexpr double kSizeAmongRuns = 1.5;
 
 /// Those with a value, the best one last: row 0 is lowest.
@@ -115,7 +113,7 @@ Panel panel_of(const ValueDotsPanel& from, const ValueDotsSpec& spec, const Shar
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const MethodValue& method = rows[i];
     const double y = static_cast<double>(i);
-    panel.y.names.push_back(printable(method.label, kLongestName));
+    panel.y.names.push_back(method.label);
     panel.layers.emplace_back(runs_of(method, y, axis.dots));
     panel.layers.emplace_back(diverged_runs_of(method, y, axis.dots));
     panel.layers.emplace_back(value_of(method, y, axis.dots, prefix + method.key));
