@@ -160,8 +160,11 @@ data cell_data(const Table& table, const Row& row, std::size_t index, const Html
   data out;
   const std::string link = text == nullptr ? "" : link_of(emphasis, text->text, options);
   const bool is_file = !link.empty();
-  out.set("value",
-          is_file ? link_words(text->text, options) : page_cell(cell, table.columns[index]));
+  const std::string words =
+      is_file ? link_words(text->text, options) : page_cell(cell, table.columns[index]);
+  const bool is_short = is_file && !text->shown.empty();
+  out.set("value", is_short ? text->shown : words);
+  out.set("words", is_short ? data(words) : data(false));
   const data curve = curve_data(row, index);
   out.set("curve", curve);
   out.set("heads", index == 0);

@@ -68,6 +68,8 @@ struct Callout {
 struct TextCell {
   std::string text;
   Emphasis emphasis = Emphasis::kPlain;
+  std::string shown = {};  ///< Of a link, on pages in place of its words, which screen readers
+                           ///< still say; empty: the words.
 };
 
 /// Shown as missing if the value is not a finite number.

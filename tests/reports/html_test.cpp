@@ -449,6 +449,24 @@ TEST(ReportHtml, SaysHowItStandsOnlyWhereThatIsKnown) {
             std::string::npos);
 }
 
+TEST(ReportHtml, ShowsAShortWordForALinkInATableAndSaysTheWholeToScreenReaders) {
+  Report report{"t", "", {}, ""};
+  Table table{.id = "t",
+              .caption = "c",
+              .columns = {{"Run", "", "", ""}, {"Report", "", "", ""}},
+              .rows = {},
+              .notes = {}};
+  table.rows = {{{TextCell{"6"}, TextCell{"a.html", Emphasis::kFile, "report"}}, ""},
+                {{TextCell{"7"}, TextCell{"a.html", Emphasis::kFile}}, ""}};
+  report.sections = {{"s", "S", {table}}};
+  HtmlOptions options;
+  options.link_words["a.html"] = "report of nightly run 6";
+  const std::string page = report_html(report, load_templates(), {}, options);
+  EXPECT_NE(page.find("href=\"./a.html\" aria-label=\"report of nightly run 6\">report</a>"),
+            std::string::npos);
+  EXPECT_NE(page.find("href=\"./a.html\">report of nightly run 6</a>"), std::string::npos);
+}
+
 TEST(ReportHtml, DrawsAChangeInTheColourOfItsFindings) {
   Report report{"t", "", {}, ""};
   Table table{.id = "t", .caption = "c", .columns = {{"Study", "", "", ""}, {"Worse", "", "", ""}}};

@@ -150,9 +150,9 @@ Table nightly_runs_table(const IndexFacts& facts, NightlyLinks& links) {
     const auto found = found_on(nightly_run.number, facts.findings);
     const NightlyVerdict verdict = verdict_of(new_findings(found, facts.notes));
     const auto made = facts.studies.find(nightly_run.number);
-    const Phrase place = made != facts.studies.end() && made->second.size() == 1
-                             ? links.report(nightly_run.number, made->second.front())
-                             : links.folder(nightly_run.number);
+    const bool has_report = made != facts.studies.end() && made->second.size() == 1;
+    const Phrase place = has_report ? links.report(nightly_run.number, made->second.front())
+                                    : links.folder(nightly_run.number);
     // What got worse is marked by weight as well, not by its text alone.
     const Emphasis weight =
         verdict == NightlyVerdict::kPassed ? Emphasis::kPlain : Emphasis::kStrong;
@@ -164,7 +164,8 @@ Table nightly_runs_table(const IndexFacts& facts, NightlyLinks& links) {
           TextCell{words_of(nightly_run, verdict) + (nightly_run.pinned ? ", reference" : ""),
                    weight},
           number(static_cast<double>(found.size()), 0), against,
-          TextCell{nightly_run.host, Emphasis::kData}, TextCell{place.text, place.emphasis},
+          TextCell{nightly_run.host, Emphasis::kData},
+          TextCell{place.text, place.emphasis, has_report ? "report" : "folder"},
           notes_cell(nightly_run.number, facts.notes)},
          fmt::format("nightly run {}", nightly_run.number)});
   }

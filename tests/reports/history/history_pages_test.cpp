@@ -345,6 +345,17 @@ TEST(HistoryPages, LinkTheCommitsSinceTheReferenceRun) {
       compared, [](const Phrase& phrase) { return phrase.emphasis == Emphasis::kUrl; }));
 }
 
+TEST(HistoryPages, LinkEachNightlyRunOfTheirTableByOneWord) {
+  NightlyLinks links({});
+  const Table table = nightly_runs_table(
+      {.nightly_runs = {{.number = 1}, {.number = 2}}, .studies = {{2, {"mine"}}}}, links);
+  const auto link = [&](std::size_t row) { return std::get<TextCell>(table.rows[row].cells[7]); };
+  EXPECT_EQ(link(0).shown, "report");
+  EXPECT_EQ(links.words().at(link(0).text), "report of nightly run 2");
+  EXPECT_EQ(link(1).shown, "folder");
+  EXPECT_EQ(links.words().at(link(1).text), "folder of nightly run 1");
+}
+
 TEST(HistoryRules, JudgeOneOfTheTwoOrientationErrors) {
   const SeriesId plain{"bearing", "lpca", 9, "moe_percent"};
   const SeriesId reflected{"bearing", "lpca", 9, "moe_unmirrored_percent"};
