@@ -41,6 +41,21 @@ TEST(ErrorLinesFigure, CountsSingleRunsOf0ThatALogarithmicAxisDoesNotHave) {
   EXPECT_EQ(figure.notes[0].text, "1 value lies below the frame.");
 }
 
+TEST(ErrorLinesFigure, NamesLinesOfOneLabelBesideTheirLastPoints) {
+  ErrorLinesSpec spec;
+  spec.id = "errors";
+  spec.panels.emplace_back().lines = {
+      {.label = "one", .key = "a", .x = {1.0, 2.0}, .mean = {1.0, NAN}, .end_label = "K = 5"},
+      {.label = "one", .key = "b", .x = {1.0, 2.0}, .mean = {1.0, 2.0}, .end_label = "K = 6"},
+      {.label = "other", .key = "c", .x = {1.0, 2.0}, .mean = {1.0, 3.0}}};
+  const Figure figure = error_lines_figure(spec);
+  const auto* ends = std::get_if<PointLabels>(&figure.panels[0].layers.back());
+  ASSERT_NE(ends, nullptr);
+  EXPECT_EQ(ends->text, (std::vector<std::string>{"K = 5", "K = 6"}));
+  EXPECT_EQ(ends->x, (std::vector<double>{1.0, 2.0}));
+  EXPECT_EQ(ends->y, (std::vector<double>{1.0, 2.0}));
+}
+
 TEST(ErrorAxis, IsLogarithmicOnlyWhereTheMeansSpanMuch) {
   EXPECT_EQ(error_axis({0.1, 1.0}, {}).scale, Scale::kLinear);
   EXPECT_EQ(error_axis({0.1, 1.0}, {}, 6.0).scale, Scale::kLog);
