@@ -52,7 +52,7 @@ constexpr double kWidestName = 9.0;  // Of a tick's label, em; numbers are short
 // Of a row's label: wider in a frame that has the room.
 constexpr double kLeastRowName = 13.5, kWidestRowName = 16.0;
 constexpr double kRowNameShare = 0.38;     // Of the frame's width.
-constexpr double kRowHeight = 1.6;         // Of a row whose name is one line, em.
+constexpr double kNamedRow = 1.6;          // Of a row whose name is one line, em.
 constexpr std::size_t kMostRows = 100;     // Of more, not all have their names.
 constexpr double kLeastTickGap = 0.25;     // Between labels of ticks that cannot be fewer, em.
 constexpr std::size_t kFewestToHalve = 3;  // Of labels that touch; two are left.
@@ -287,11 +287,11 @@ double AxesLayout::height_of_names(double width) const {
         static_cast<double>(name_lines(theme_, name, widest_row_name(width, em)).size()));
   // No name may reach the next one, or over the frame.
   const auto last = static_cast<double>(names.size() - 1);
-  double row = std::max({kRowHeight, 0.5 * heights.front() / std::max(0.5, -limits_.y.low),
+  double row = std::max({kNamedRow, 0.5 * heights.front() / std::max(0.5, -limits_.y.low),
                          0.5 * heights.back() / std::max(0.5, limits_.y.high - last)});
   for (std::size_t i = 1; i < heights.size(); ++i)
-    row = std::max(row, 0.5 * (heights[i - 1] + heights[i]) + kRowHeight - kNameLineStep);
-  const double rows = row > kRowHeight ? limits_.y.high - limits_.y.low : last + 1.0;
+    row = std::max(row, 0.5 * (heights[i - 1] + heights[i]) + kNamedRow - kNameLineStep);
+  const double rows = row > kNamedRow ? limits_.y.high - limits_.y.low : last + 1.0;
   return std::min(rows, last + 2.0) * row * em + 1.0;
 }
 
@@ -309,9 +309,9 @@ TickLabels AxesLayout::named_rows(const Box& frame) const {
   const auto with = [&](double row_em) {
     return most(static_cast<int>(frame.height() / (row_em * em)));
   };
-  TickLabels rows = with(kRowHeight);
+  TickLabels rows = with(kNamedRow);
   const double further = further_lines_of(rows);
-  return further > 0.0 ? with(kRowHeight + further) : rows;
+  return further > 0.0 ? with(kNamedRow + further) : rows;
 }
 
 FrameNumbers AxesLayout::numbers(const Axes& axes) const {
