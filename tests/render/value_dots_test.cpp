@@ -29,6 +29,28 @@ TEST(ValueDots, PutTheBestMethodUppermostAndLeaveOutWhatHasNoValue) {
   EXPECT_EQ(value_dots_figure(spec).panels[0].y.names, (std::vector<std::string>{"A", "B"}));
 }
 
+TEST(ValueDots, KeepTheOrderOfMethodsThatAreNotRanked) {
+  ValueDotsSpec spec = three_methods();
+  spec.ranked = false;
+  for (const bool higher_is_better : {false, true}) {
+    spec.higher_is_better = higher_is_better;
+    EXPECT_EQ(value_dots_figure(spec).panels[0].y.names, (std::vector<std::string>{"B", "A"}));
+  }
+}
+
+TEST(ValueDots, HaveTheirIntervalsBehindThem) {
+  ValueDotsSpec spec = three_methods();
+  spec.panels[0].methods[0].interval = Range{0.05, 0.2};
+  const Panel panel = value_dots_figure(spec).panels[0];
+  ASSERT_EQ(panel.layers.size(), 4U) << "runs and value of B, interval and value of A";
+  const auto& bar = std::get<Segments>(panel.layers[2]);
+  EXPECT_EQ(bar.x0, std::vector<double>{0.05});
+  EXPECT_EQ(bar.x1, std::vector<double>{0.2});
+  EXPECT_EQ(bar.y0, std::vector<double>{1.0});
+  EXPECT_EQ(bar.y1, bar.y0);
+  EXPECT_EQ(bar.colour, std::get<Scatter>(panel.layers[3]).colour);
+}
+
 TEST(ValueDots, ShowRunsBehindTheirMedian) {
   const Panel panel = value_dots_figure(three_methods()).panels[0];
   ASSERT_EQ(panel.layers.size(), 3U) << "runs and value of B, value of A";
@@ -92,7 +114,11 @@ TEST(ValueDots, AreSaidInWords) {
 }
 
 TEST(ValueDots, AreCleanOnPagesOfAllKinds) {
-  for (ValueDotsSpec spec : {three_methods(), with_diverged()}) {
+  ValueDotsSpec shares = three_methods();
+  shares.panels[0].methods = {{"A", "a", 0, 100.0, {}, Range{100.0, 100.0}},
+                              {"B", "b", 0, 40.0, {}, Range{20.0, 60.0}}};
+  shares.x_limits = Range{-3.0, 103.0};
+  for (ValueDotsSpec spec : {three_methods(), with_diverged(), shares}) {
     spec.panels.push_back(spec.panels[0]);
     for (const Theme& theme : {report_theme(), dark_theme(), paper_theme(3.25)})
       for (const std::string& flaw : flaws(lay_out(value_dots_figure(spec), theme)))

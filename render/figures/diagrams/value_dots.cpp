@@ -17,13 +17,16 @@ namespace mapproof {
 namespace {
 
 constexpr double kSizeAmongRuns = 1.5;
+constexpr double kIntervalWidth = 2.5;
 
-/// Those with a value, the best one last: row 0 is lowest.
-std::vector<MethodValue> rows_of(const ValueDotsPanel& panel, bool higher_is_better) {
+/// Those with a value, the uppermost one last: row 0 is lowest.
+std::vector<MethodValue> rows_of(const ValueDotsPanel& panel, const ValueDotsSpec& spec) {
   std::vector<MethodValue> rows;
   for (const MethodValue& method : panel.methods)
     if (std::isfinite(method.value)) rows.push_back(method);
-  if (higher_is_better)
+  if (!spec.ranked)
+    std::ranges::reverse(rows);
+  else if (spec.higher_is_better)
     std::ranges::stable_sort(rows, std::less<>(), &MethodValue::value);
   else
     std::ranges::stable_sort(rows, std::greater<>(), &MethodValue::value);
@@ -54,11 +57,28 @@ struct SharedAxis {
 SharedAxis axis_of(const ValueDotsSpec& spec) {
   std::vector<double> values;
   for_each_run(spec, [&](const std::string& /*label*/, double run) { values.push_back(run); });
+  for (const ValueDotsPanel& panel : spec.panels)
+    for (const MethodValue& method : panel.methods)
+      if (method.interval)
+        values.insert(values.end(), {method.interval->low, method.interval->high});
   Span span;
   span.see(without_diverged(values, divergence_of(spec)));
   const bool is_wide = span.known() && span.low > 0.0 && span.high > kWideSpan * span.low;
   const Scale scale = is_wide ? Scale::kLog : Scale::kLinear;
-  return {scale, dot_axis(values, scale, divergence_of(spec))};
+  SharedAxis axis{scale, dot_axis(values, scale, divergence_of(spec))};
+  if (spec.x_limits) axis.dots.limits = spec.x_limits;
+  return axis;
+}
+
+/// The interval of a row that is on the axis as a whole; equal values have none.
+Segments interval_of(const MethodValue& method, double y, const DotAxis& axis) {
+  Segments bar{.colour = series_style(method.series).colour, .width = kIntervalWidth};
+  if (!method.interval || !(method.interval->low < method.interval->high) ||
+      method.interval->high > axis.ceiling)
+    return bar;
+  add_line(bar, {method.interval->low, y}, {method.interval->high, y});
+  bar.marks.push_back({"", {{"method", method.label}, {"kind", "interval"}}});
+  return bar;
 }
 
 /// The runs of a row that are on the axis.
@@ -108,12 +128,13 @@ Panel panel_of(const ValueDotsPanel& from, const ValueDotsSpec& spec, const Shar
   Panel panel;
   panel.title = from.title;
   panel.x = {.label = spec.x_label, .scale = axis.scale, .limits = axis.dots.limits};
-  const std::vector<MethodValue> rows = rows_of(from, spec.higher_is_better);
+  const std::vector<MethodValue> rows = rows_of(from, spec);
   panel.y.limits = Range{-0.6, std::max(1.0, static_cast<double>(rows.size())) - 0.4};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const MethodValue& method = rows[i];
     const double y = static_cast<double>(i);
     panel.y.names.push_back(method.label);
+    panel.layers.emplace_back(interval_of(method, y, axis.dots));
     panel.layers.emplace_back(runs_of(method, y, axis.dots));
     panel.layers.emplace_back(diverged_runs_of(method, y, axis.dots));
     panel.layers.emplace_back(value_of(method, y, axis.dots, prefix + method.key));
@@ -136,7 +157,7 @@ std::vector<DivergedCount> count_diverged(const ValueDotsSpec& spec) {
 std::string alt_of(const ValueDotsSpec& spec) {
   std::string text = spec.title + ".";
   for (const ValueDotsPanel& panel : spec.panels) {
-    std::vector<MethodValue> rows = rows_of(panel, spec.higher_is_better);
+    std::vector<MethodValue> rows = rows_of(panel, spec);
     std::ranges::reverse(rows);
     text += panel.title.empty() ? "" : " " + panel.title + ":";
     for (const MethodValue& method : rows)

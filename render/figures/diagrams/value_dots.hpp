@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,8 @@ struct MethodValue {
   std::string key = {};           ///< [a-z0-9-]+, unique in its panel.
   std::size_t series = 0;         ///< See series_style().
   double value = kNaN;            ///< A method without a finite one has no row.
-  std::vector<double> runs = {};  ///< What `value` is the median of; empty: they are not shown.
+  std::vector<double> runs = {};  ///< Of which `value` is the middle; empty: they are not shown.
+  std::optional<Range> interval = {};  ///< That of `value` at 95 %, a bar behind it.
 };
 
 struct ValueDotsPanel {
@@ -33,12 +35,14 @@ struct ValueDotsSpec {
   std::string x_label = {};  ///< "MPE [m]".
   std::string unit = {};     ///< Of the values.
   bool higher_is_better = false;
+  bool ranked = true;        ///< The best row is uppermost; else the first one.
   bool great_errors = true;  ///< As of ErrorLinesSpec.
+  std::optional<Range> x_limits = {};  ///< Empty: what the values need.
   std::vector<ValueDotsPanel> panels = {};
   std::vector<std::string> record_ids = {};
 };
 
-/// Values of methods as dots, a row each, the best one uppermost; small circles for the runs. The
+/// Values of methods as dots, a row each; small circles for the runs, bars for the intervals. The
 /// axis is logarithmic where the values span widely. Of what diverged see curves/diverged.hpp.
 Figure value_dots_figure(const ValueDotsSpec& spec);
 

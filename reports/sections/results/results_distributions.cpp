@@ -112,35 +112,57 @@ bool has_different_values(const ResultsView& view, const ResultsBlock& block,
   return false;
 }
 
-/// Where no factor has numbers and the runs are too few for a distribution: each of them, a panel
-/// per level. Of one method the table has as much.
-std::optional<Figure> runs_figure(const ResultsView& view, const ResultsBlock& block,
-                                  const Quantity& quantity) {
-  const std::vector<ResultsLine> lines = view.lines(block, quantity);
-  if (lines.size() < 2) return std::nullopt;
+/// The runs of one method at a level.
+std::vector<double> numbers_of(const ResultsView& view, const Condition& at,
+                               const ResultsLine& line, const Quantity& quantity) {
+  std::vector<double> numbers;
+  for (const auto& [run, value] : view.numbers(at, line, quantity).values) numbers.push_back(value);
+  return numbers;
+}
+
+/// Dots of a block's methods, a panel per level, without title and caption.
+/// @param dot  What a method with runs shows at a condition: of its line, without its name.
+template <typename Dot>
+ValueDotsSpec dots_of(const ResultsView& view, const ResultsBlock& block, const Quantity& quantity,
+                      const Dot& dot) {
   ValueDotsSpec spec{.id = id_below(block.id, quantity.id),
-                     .caption = fmt::format("Filled: the median {} of each method; circles: single "
-                                            "runs, which are too few for a distribution.",
-                                            in_sentence(quantity.label)),
                      .x_label = label_with_unit(quantity),
                      .unit = quantity.unit,
                      .higher_is_better = quantity.better == Better::kHigher,
                      .great_errors = view.has_great_errors(quantity),
                      .record_ids = {record_of(block)}};
-  std::vector<double> medians;
+  const std::vector<ResultsLine> lines = view.lines(block, quantity);
   for (std::size_t i = 0; i < block.conditions.size(); ++i) {
     ValueDotsPanel& panel = spec.panels.emplace_back();
     if (!block.factor.empty()) panel.title = view.level_words(block.levels[i]);
     for (std::size_t k = 0; k < lines.size(); ++k) {
-      const auto runs = view.numbers(block.conditions[i], lines[k], quantity).values;
-      if (runs.empty()) continue;
-      MethodValue& method = panel.methods.emplace_back();
-      method = {lines[k].label, key_of(k), lines[k].series, median_of(runs), {}};
-      medians.push_back(method.value);
-      for (const auto& [run, value] : runs) method.runs.push_back(value);
+      if (view.numbers(block.conditions[i], lines[k], quantity).values.empty()) continue;
+      MethodValue& method = panel.methods.emplace_back(dot(block.conditions[i], lines[k]));
+      method.label = lines[k].label;
+      method.key = key_of(k);
+      method.series = lines[k].series;
     }
   }
+  return spec;
+}
+
+/// Where no factor has numbers and the runs are too few for a distribution: each of them, a panel
+/// per level. Of one method the table has as much.
+std::optional<Figure> runs_figure(const ResultsView& view, const ResultsBlock& block,
+                                  const Quantity& quantity) {
+  if (view.lines(block, quantity).size() < 2) return std::nullopt;
+  std::vector<double> medians;
+  ValueDotsSpec spec =
+      dots_of(view, block, quantity, [&](const Condition& at, const ResultsLine& line) {
+        MethodValue method{.runs = numbers_of(view, at, line, quantity)};
+        medians.push_back(method.value = median(method.runs));
+        return method;
+      });
   if (medians.empty()) return std::nullopt;
+  spec.caption = fmt::format(
+      "Filled: the median {} of each method; circles: single runs, which are too few for a "
+      "distribution.",
+      in_sentence(quantity.label));
   medians = without_diverged(std::move(medians), divergence_in(quantity.unit, spec.great_errors));
   const auto [least, greatest] = std::ranges::minmax(medians);
   const auto words = [&](double median) {
@@ -200,6 +222,31 @@ std::optional<Figure> distribution_figure(const ResultsView& view, const Results
   spec.title = fmt::format("{}: {}", block.title,
                            distribution_words(spec.panels, medians, quantity, great_errors));
   return error_lines_figure(spec);
+}
+
+std::optional<Figure> means_figure(const ResultsView& view, const ResultsBlock& block,
+                                   const Quantity& quantity) {
+  if (block.conditions.size() > kMostPanels) return std::nullopt;
+  const bool has_intervals = view.has_groups_for_intervals();
+  ValueDotsSpec spec =
+      dots_of(view, block, quantity, [&](const Condition& at, const ResultsLine& line) {
+        MethodValue method{.value = view.mean(at, line, quantity)->mean};
+        if (!has_intervals) method.runs = numbers_of(view, at, line, quantity);
+        if (const auto spread = view.spread(at, line, quantity); spread && has_intervals)
+          method.interval = Range{spread->low, spread->high};
+        return method;
+      });
+  if (std::ranges::all_of(spec.panels, &std::vector<MethodValue>::empty, &ValueDotsPanel::methods))
+    return std::nullopt;
+  spec.ranked = false;
+  spec.title = fmt::format("{}: {}", block.title, quantity.label);
+  spec.caption =
+      fmt::format("Filled: the mean {} over runs; {}.", in_sentence(quantity.label),
+                  has_intervals ? "bars: its 95\u00A0% interval"
+                                : "circles: single runs, which are too few for an interval");
+  // Shares are seen as parts of a whole, with room for half a marker at both ends.
+  if (quantity.unit == "%") spec.x_limits = Range{-3.0, 103.0};
+  return value_dots_figure(spec);
 }
 
 std::string why_no_distribution(const ResultsView& view, const ResultsBlock& block,

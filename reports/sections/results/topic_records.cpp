@@ -18,6 +18,7 @@
 #include "reports/sections/provenance.hpp"
 #include "reports/sections/results/results_conventions.hpp"
 #include "reports/sections/results/results_curves.hpp"
+#include "reports/sections/results/results_distributions.hpp"
 #include "reports/sections/results/results_view.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/wording.hpp"
@@ -152,6 +153,8 @@ FigureGroup topic_evidence(const TopicStudy& study, const ResultsStudy& results,
     figure = overview_figure(view, view.overviews().front(), quantity);
   else if (view.blocks().front().has_axis())
     figure = curve_figure(view, view.blocks().front(), quantity);
+  else
+    figure = means_figure(view, view.blocks().front(), quantity);
   if (!figure) return group;
   figure->id = id_below(results.name, "headline");
   figure->columns = 2;  // Names of setups are long.

@@ -22,7 +22,7 @@ inline constexpr const char* kNoUsableMap = ": no usable map";
 FigureGroup topic_maps(const TopicStudy& study, const std::string& prefix);
 
 /// The figure that shows what the headline's value is the mean of, with the headline as its title;
-/// empty where the figure of its quantity shows it, or the study has too few levels.
+/// empty where the figure of its quantity shows it.
 /// @param results  labelled_results() of the study.
 FigureGroup topic_evidence(const TopicStudy& study, const ResultsStudy& results,
                            const TopicHeadline& headline);

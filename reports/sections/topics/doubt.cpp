@@ -1,7 +1,10 @@
-#include <cmath>
+#include <algorithm>
+#include <array>
 #include <iterator>
 #include <set>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -15,6 +18,7 @@ namespace {
 
 constexpr const char* kFitTest = "slam";
 constexpr const char* kReported = "reported_percent";
+constexpr const char* kAlarm = "alarm_percent";
 
 std::string doubt_question(const TopicExperiment& experiment) {
   return fmt::format(
@@ -54,8 +58,7 @@ std::vector<std::string> doubt_conclusions(const TopicStudy& study) {
         "Of {} fault-free logs {:.3g} % have an alarm, and of {:.3g} % the verdict is that they do "
         "not fit. Of those that fit, {:.3g} % of the landmarks lie in their 95 % ellipse; the mean "
         "squared error over its variance is {:.2f}, where 2 is right.",
-        topic_values(study, at, kFitTest, "alarm_percent").size(),
-        topic_mean(study, at, kFitTest, "alarm_percent"),
+        topic_values(study, at, kFitTest, kAlarm).size(), topic_mean(study, at, kFitTest, kAlarm),
         topic_mean(study, at, kFitTest, "denied_percent"),
         topic_mean(study, at, kFitTest, "inside_percent"),
         topic_mean(study, at, kFitTest, "nees")));
@@ -69,8 +72,8 @@ TopicHeadline doubt_headline(const TopicStudy& study) {
   for (const TopicSetup& setup : study.design.setups) {
     if (setup.factors.empty()) {
       const Condition at = condition_at(setup, 0.0);
-      alarms = topic_mean(study, at, kFitTest, "alarm_percent");
-      logs = static_cast<double>(topic_values(study, at, kFitTest, "alarm_percent").size());
+      alarms = topic_mean(study, at, kFitTest, kAlarm);
+      logs = static_cast<double>(topic_values(study, at, kFitTest, kAlarm).size());
       continue;
     }
     for (const Condition& at : conditions_of(setup))
@@ -93,26 +96,61 @@ TopicHeadline doubt_headline(const TopicStudy& study) {
           kReported};
 }
 
-/// The share of each fault that is reported over its size, in one figure.
+/// A name of the setup that has room beside a row or a curve; sections have its whole title.
+std::string short_title(const Label& setup) {
+  constexpr std::array<std::pair<std::string_view, const char*>, 9> kShort = {
+      {{"common-offset", "Common offset of ranges"},
+       {"landmark-offset", "Offset of one landmark"},
+       {"late-clock", "Late clock"},
+       {"clock-jump", "Jump of the clock"},
+       {"moved-landmark", "Moved landmark"},
+       {"exchanged-ids", "Exchanged IDs"},
+       {"odometry-gap", "Gap of odometry"},
+       {"odometry-frozen", "Frozen odometry"},
+       {"fault-free", "No fault (false alarms)"}}};
+  const auto* const known =
+      std::ranges::find(kShort, setup.id, &std::pair<std::string_view, const char*>::first);
+  return known == kShort.end() ? setup.label : known->second;
+}
+
+/// The sizes of faults in a study, as levels of a condition.
+std::set<std::vector<Level>> sizes_in(const ResultsStudy& results) {
+  std::set<std::vector<Level>> sizes;
+  for (const Result& row : results.results.rows)
+    if (row.quantity == kReported && !row.at.levels.empty()) sizes.insert(row.at.levels);
+  return sizes;
+}
+
+/// The share of each fault that is reported at each size, in one figure, and that of alarms without
+/// any fault, which has no size and is the same beside all.
 ResultsStudy reported_faults(const ResultsStudy& results) {
   ResultsStudy study;
   study.name = results.name;
   study.title = results.title;
   study.quantities = {kReported};
-  study.quantity_labels = results.quantity_labels;
+  study.quantity_labels = {{kReported, "Share of logs with a fault reported"}};
   study.factors = results.factors;
   study.results.quantities = results.results.quantities;
   study.results.are_repeats = results.results.are_repeats;
-  std::set<std::string> faults;
-  for (const Result& row : results.results.rows) {
-    if (row.quantity != kReported || row.at.levels.empty()) continue;
-    faults.insert(row.at.setup);
+  const std::set<std::vector<Level>> sizes = sizes_in(results);
+  std::set<std::string> shown;
+  const auto add = [&](const Result& row, const std::vector<Level>& size) {
+    shown.insert(row.at.setup);
     Result& reported = study.results.rows.emplace_back(row);
-    reported.at = {.levels = row.at.levels};
+    reported.at = {.levels = size};
     reported.method = row.at.setup;
+    reported.quantity = kReported;
+  };
+  for (const Result& row : results.results.rows) {
+    if (row.quantity == kReported && !row.at.levels.empty()) add(row, row.at.levels);
+    if (row.quantity == kAlarm)
+      for (const std::vector<Level>& size : sizes) add(row, size);
   }
   for (const Label& setup : results.setups)
-    if (faults.contains(setup.id)) study.methods.push_back(setup);
+    if (shown.contains(setup.id)) study.methods.push_back({setup.id, short_title(setup)});
+  // Below the faults that it is compared with.
+  std::ranges::stable_partition(study.methods,
+                                [](const Label& method) { return method.id != "fault-free"; });
   sort_results(study.results);
   complete(study);
   return study;

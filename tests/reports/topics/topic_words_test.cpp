@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/not_finite.hpp"
 #include "core/records/studies/results_of.hpp"
 #include "core/topics/topic.hpp"
 #include "core/topics/topics.hpp"
@@ -212,9 +213,61 @@ TEST(TopicEvidence, OfFaultsIsTheShareOfEachThatIsReported) {
   const FigureGroup group = topic_evidence(study, labelled_results(study), headline);
   ASSERT_EQ(group.figures.size(), 1U);
   EXPECT_EQ(group.figures.front().title, headline.value + " of faults in range-only logs reported");
-  const std::vector<double> late = values_of(group.figures.front(), "Ranges stamped 5 s late");
+  const std::vector<double> late = values_of(group.figures.front(), "Late clock");
   EXPECT_EQ(late.size(), list_option(study.experiment, "sizes_percent").size());
   for (const double value : late) EXPECT_EQ(value, 90.0);
+}
+
+/// Drives on each of which all faults of one size are reported, and an alarm on the first without
+/// any fault.
+TopicStudy study_of_one_size(int layouts) {
+  TopicStudy study;
+  study.experiment = empty_study(kDoubtTopic).experiment;
+  study.experiment.options["sizes_percent"] = {100.0};
+  study.design = kDoubtTopic.design(study.experiment);
+  for (int layout = 1; layout <= layouts; ++layout) {
+    TopicPart& part = study.parts.emplace_back();
+    part.run = RunId{layout, 1};
+    part.id = slug(*part.run);
+    for (const TopicSetup& setup : study.design.setups) {
+      TopicOutcome& outcome = part.outcomes.emplace_back();
+      outcome.at = conditions_of(setup).front();
+      outcome.method = "slam";
+      outcome.values =
+          setup.factors.empty()
+              ? std::map<std::string, double>{{"alarm_percent", layout == 1 ? 100.0 : 0.0}}
+              : std::map<std::string, double>{{"reported_percent", 100.0}};
+    }
+  }
+  return study;
+}
+
+TEST(TopicEvidence, OfFaultsOfOneSizeIsADotForEachAndForTheFalseAlarms) {
+  for (const int layouts : {2, 10}) {
+    const TopicStudy study = study_of_one_size(layouts);
+    const FigureGroup group = topic_evidence(study, labelled_results(study), headline_of(study));
+    ASSERT_EQ(group.figures.size(), 1U);
+    ASSERT_EQ(group.figures[0].panels.size(), 1U);
+    const Panel& panel = group.figures[0].panels[0];
+    ASSERT_EQ(panel.y.names.size(), 9U);
+    EXPECT_EQ(panel.y.names.front(), "No fault (false alarms)");
+    EXPECT_EQ(panel.y.names.back(), "Common offset of ranges") << "in the order of the sections";
+    double alarms = kNaN, interval_end = kNaN;
+    std::size_t circles = 0;
+    for (const Layer& layer : panel.layers) {
+      if (const auto* bar = std::get_if<Segments>(&layer); bar != nullptr && bar->y0[0] == 0.0)
+        interval_end = bar->x1[0];
+      const auto* dots = std::get_if<Scatter>(&layer);
+      if (dots == nullptr || dots->y[0] != 0.0) continue;
+      if (dots->filled)
+        alarms = dots->x[0];
+      else
+        circles += dots->x.size();
+    }
+    EXPECT_DOUBLE_EQ(alarms, 100.0 / layouts);
+    EXPECT_EQ(circles, layouts == 2 ? 2U : 0U) << "few runs are points";
+    EXPECT_EQ(interval_end > alarms, layouts == 10) << "more have an interval";
+  }
 }
 
 TEST(TopicEvidence, IsNoneWhereTheFigureOfTheQuantityIsEnough) {
