@@ -374,7 +374,7 @@ std::map<std::string, const Table*> first_notes(const Report& report) {
 data table_data(const Table& table, const FigureContext& drawn, const HtmlOptions& options) {
   data out;
   out.set("id", table.id);
-  out.set("caption", table.caption);
+  out.set("caption", page_text(table.caption));
   out.set("folder", folder_data(options.table_folder, options));
   add_headings(table, out);
   const list rows = rows_data(table, options);

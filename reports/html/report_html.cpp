@@ -41,7 +41,7 @@ data section_data(const Section& section, const Report& report, const FigureCont
   data out;
   out.set("folded", data(is_folded));
   out.set("id", section.id);
-  out.set("title", section.title);
+  out.set("title", page_text(section.title));
   out.set("study", text_or_false(section.group));
   list blocks;
   for (const Block& block : section.blocks)
@@ -89,7 +89,7 @@ list contents(const Report& report) {
     for (; i < report.sections.size() && report.sections[i].group == first.group; ++i) {
       data entry;
       entry.set("id", report.sections[i].id);
-      entry.set("title", report.sections[i].title);
+      entry.set("title", page_text(report.sections[i].title));
       const list parts = first.group.empty() ? parts_within(report.sections[i]) : list();
       entry.set("any_parts", data(!parts.empty()));
       entry.set("parts", parts);

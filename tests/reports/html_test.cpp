@@ -350,6 +350,14 @@ TEST(ReportHtml, KeepsQuantitiesOnOneLine) {
   EXPECT_NE(page.find("a 12 m"), std::string::npos) << "a command stays as it is typed";
 }
 
+TEST(ReportHtml, KeepsQuantitiesOfHeadingsOnOneLineInItsContentsToo) {
+  const Table table{"late", "Stamped 5 s late", {{"Method", "", "", ""}}, {}};
+  const Report report{"r", "", {{"late", "Ranges stamped 5 s late", {table}}}, ""};
+  const std::string page = report_html(report, load_templates(), {});
+  EXPECT_NE(page.find(">Stamped 5\u00A0s late<"), std::string::npos);
+  EXPECT_NE(contents_of(report).find(">Ranges stamped 5\u00A0s late<"), std::string::npos);
+}
+
 TEST(ReportHtml, KeepsDatesOnOneLine) {
   const Table table{"t",
                     "c",

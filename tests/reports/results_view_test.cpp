@@ -12,6 +12,7 @@
 #include "core/statistics/paired_change.hpp"
 #include "reports/sections/results/results_comparison.hpp"
 #include "reports/sections/results/results_figures.hpp"
+#include "reports/sections/results/results_report.hpp"
 #include "reports/sections/results/results_tables.hpp"
 #include "tests/reports/results_rows.hpp"
 
@@ -346,6 +347,48 @@ TEST(ResultsComparison, ManyOpenAReportByWhatTheyComeTo) {
       "n in 2 (2 significantly); significantly worse than the best wherever compared: o.");
   EXPECT_EQ(losses_of(view), "30 of 270 results have no value: 30 of o");
   EXPECT_EQ(headlines_of(view, {comparisons[0]})[0], sentence_of(comparisons[0], view));
+}
+
+/// One method in two setups with one level of noise, and in one that has none.
+ResultsStudy study_at_one_noise(double noise_of_second) {
+  ResultsStudy study;
+  study.name = "test";
+  const auto add = [&](const char* setup, std::vector<Level> levels) {
+    study.results.rows.push_back({.at = condition(setup, std::move(levels)),
+                                  .method = "m",
+                                  .quantity = "mpe_m",
+                                  .run = "a",
+                                  .group = "a",
+                                  .subject = "",
+                                  .value = 0.1});
+  };
+  add("indoors", {{"noise", 0.1}});
+  add("outdoors", {{"noise", noise_of_second}});
+  add("quiet", {});
+  study.results.are_repeats = true;
+  sort_results(study.results);
+  EXPECT_EQ(complete(study), "");
+  return study;
+}
+
+TEST(ResultsView, WhatAllSetupsHaveInCommonIsSaidOnceAndNotInTheirTitles) {
+  const auto titles = [](const ResultsView& view) {
+    std::vector<std::string> all;
+    for (const ResultsBlock& block : view.blocks()) all.push_back(block.title);
+    return all;
+  };
+  const ResultsStudy alike = study_at_one_noise(0.1), other = study_at_one_noise(0.2);
+  const ResultsView view(alike);
+  EXPECT_EQ(titles(view), (std::vector<std::string>{"indoors", "outdoors", "quiet"}));
+  EXPECT_EQ(view.shared_words(), "noise 0.1");
+  EXPECT_EQ(view.blocks()[0].id, "test-indoors-noise-0-1");
+  const Report report =
+      results_report({.view = view, .comparisons = {}, .figures = {}, .provenance = {}});
+  EXPECT_TRUE(report.subtitle.ends_with("; noise 0.1")) << report.subtitle;
+  const ResultsView apart(other);
+  EXPECT_EQ(titles(apart),
+            (std::vector<std::string>{"indoors, noise 0.1", "outdoors, noise 0.2", "quiet"}));
+  EXPECT_EQ(apart.shared_words(), "");
 }
 
 TEST(ResultsView, AnOverviewHasAColumnPerLevelOfAText) {

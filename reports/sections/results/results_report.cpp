@@ -52,6 +52,8 @@ Section summary_section(const ResultsReportInput& input, bool has_opening) {
   const ResultsStudy& study = input.view.study();
   Section section{summary_id(study.name), "Summary", {}};
   if (!study.question.empty() && !has_opening) section.blocks.emplace_back(plain(study.question));
+  if (const std::string shared = input.view.shared_words(); !shared.empty() && !has_opening)
+    section.blocks.emplace_back(plain("Setups have in common: " + shared + "."));
   if (!input.incomplete.empty())
     section.blocks.emplace_back(
         Callout{Callout::Tone::kWarning, "Incomplete", plain(input.incomplete)});
@@ -596,6 +598,8 @@ Report results_report(const ResultsReportInput& input) {
   report.subtitle = fmt::format(
       "{}, {}", counted(static_cast<long long>(study.methods.size()), "method"),
       counted(static_cast<long long>(input.view.runs()), study.runs.empty() ? "run" : "data set"));
+  if (const std::string shared = input.view.shared_words(); !shared.empty())
+    report.subtitle += "; " + shared;
   report.sections = sections_of(input, true);
   report.opening = opening_of(input);
   report.footer = input.footer;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/errors.hpp"
 #include "core/base/median.hpp"
@@ -81,6 +82,7 @@ ResultsView::ResultsView(const ResultsStudy& study) : study_(study) {
   series_ = styles_of(study);
   take_rows();
   name_setups();
+  find_shared_levels();
   for (const RunOutcome& outcome : study.results.outcomes)
     outcomes_[{outcome.at, outcome.method}].push_back(&outcome);
   make_blocks();
@@ -154,6 +156,19 @@ void ResultsView::name_setups() {
   }
 }
 
+void ResultsView::find_shared_levels() {
+  std::map<std::string, std::set<Level>> levels;
+  std::map<std::string, std::set<Name>> setups;
+  for (const auto& [key, rows] : rows_)
+    for (const Level& level : key.at.levels) {
+      levels[level.factor].insert(level);
+      setups[level.factor].insert(key.at.setup);
+    }
+  for (const auto& [factor, of_factor] : levels)
+    if (of_factor.size() == 1 && setups[factor].size() > 1)
+      shared_levels_.push_back(*of_factor.begin());
+}
+
 void ResultsView::make_blocks() {
   for (const Label& setup : study_.setups) add_setup(setup);
   std::set<std::string> ids;
@@ -193,7 +208,8 @@ void ResultsView::add_setup(const Label& setup) {
     block.id = study_.name + "-" + slug_of(setup.id.empty() ? "all" : setup.id);
     block.others = others;
     for (const Level& other : others) {
-      block.title += ", " + level_words(other);
+      if (std::ranges::find(shared_levels_, other) == shared_levels_.end())
+        block.title += ", " + level_words(other);
       block.id += "-" + slug_of(other.factor) + "-" + level_slug(other);
     }
     for (const std::string& factor : factors)
@@ -429,6 +445,12 @@ StatusCounts ResultsView::statuses(const Condition& at, const ResultsLine& line)
       ++counts.codes[code];
   }
   return counts;
+}
+
+std::string ResultsView::shared_words() const {
+  std::vector<std::string> words;
+  for (const Level& level : shared_levels_) words.push_back(level_words(level));
+  return fmt::format("{}", fmt::join(words, ", "));
 }
 
 std::string ResultsView::level_words(const Level& level) const {

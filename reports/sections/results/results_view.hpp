@@ -120,6 +120,9 @@ class ResultsView {
   /// The group of each run of the study.
   const GroupsByRun& run_groups() const { return groups_; }
 
+  /// "noise 0.1 m, light day": what several setups have and none has otherwise, which their titles
+  /// leave out; empty if there is nothing.
+  std::string shared_words() const;
   /// "noise 0.1 m": a level in words.
   std::string level_words(const Level& level) const;
   /// "noise [m]".
@@ -143,6 +146,7 @@ class ResultsView {
                                    const Quantity& quantity) const;
   void take_rows();
   void name_setups();
+  void find_shared_levels();
   /// Empty where nothing was tried.
   Rows rows_of(const Condition& at, const Name& method, const Name& quantity) const;
   void make_blocks();
@@ -168,6 +172,7 @@ class ResultsView {
   std::set<std::string> usual_errors_;  ///< Quantities that have a value of a usual error in m.
   std::map<std::string, int> decimals_;       ///< By quantity.
   std::map<std::string, std::string> slugs_;  ///< By setup.
+  std::vector<Level> shared_levels_;  ///< Of several setups, the only ones of their factors.
   std::vector<ResultsBlock> blocks_;
   std::vector<ResultsOverview> overviews_;
 };

@@ -36,10 +36,12 @@ std::string fault_sentence(const TopicStudy& study, const TopicSetup& setup) {
   for (const Condition& at : conditions_of(setup)) {
     const std::vector<double> reported = topic_values(study, at, kFitTest, kReported);
     if (reported.empty()) continue;
-    parts.push_back(fmt::format("{:.0f} % reported and {:.0f} % with the right cause at {}",
-                                topic_mean(study, at, kFitTest, kReported),
-                                topic_mean(study, at, kFitTest, "named_percent"),
-                                level_words(setup, at)));
+    std::string part = fmt::format("{:.0f} % reported and {:.0f} % with the right cause",
+                                   topic_mean(study, at, kFitTest, kReported),
+                                   topic_mean(study, at, kFitTest, "named_percent"));
+    // All faults have the same sizes: the page names a single one once.
+    if (levels_of(setup).size() > 1) part += " at " + level_words(setup, at);
+    parts.push_back(std::move(part));
   }
   if (parts.empty()) return "";
   return fmt::format("{}: {}.", setup.title, all_listed(parts));

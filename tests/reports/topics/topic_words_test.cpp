@@ -236,10 +236,16 @@ TopicStudy study_of_one_size(int layouts) {
       outcome.values =
           setup.factors.empty()
               ? std::map<std::string, double>{{"alarm_percent", layout == 1 ? 100.0 : 0.0}}
-              : std::map<std::string, double>{{"reported_percent", 100.0}};
+              : std::map<std::string, double>{{"reported_percent", 100.0}, {"named_percent", 0.0}};
     }
   }
   return study;
+}
+
+TEST(TopicWords, OfFaultsOfOneSizeDoNotRepeatIt) {
+  const std::vector<std::string> sentences = conclusions_of(study_of_one_size(2));
+  EXPECT_EQ(sentences.back(),
+            "Odometry at a standstill for 60 s: 100 % reported and 0 % with the right cause.");
 }
 
 TEST(TopicEvidence, OfFaultsOfOneSizeIsADotForEachAndForTheFalseAlarms) {
