@@ -26,6 +26,8 @@ struct Phrase {
   std::string text;
   Emphasis emphasis = Emphasis::kPlain;
   std::string element = {};  ///< Of a kFile: the id in it that the link leads to.
+
+  bool operator==(const Phrase&) const = default;
 };
 
 /// Words set as the text around them.
@@ -36,6 +38,8 @@ inline Phrase strong(std::string text) { return {std::move(text), Emphasis::kStr
 
 struct Paragraph {
   std::vector<Phrase> phrases;
+
+  bool operator==(const Paragraph&) const = default;
 };
 
 struct BulletList {

@@ -391,6 +391,29 @@ TEST(ResultsView, WhatAllSetupsHaveInCommonIsSaidOnceAndNotInTheirTitles) {
   EXPECT_EQ(apart.shared_words(), "");
 }
 
+TEST(ResultsReport, SetupsThatAreALineEachStandInOneTable) {
+  const ResultsStudy study = study_at_one_noise(0.1);
+  const ResultsView view(study);
+  const Report report =
+      results_report({.view = view, .comparisons = {}, .figures = {}, .provenance = {}});
+  ASSERT_EQ(report.sections.size(), 2U) << "and the provenance";
+  const Section& section = report.sections[0];
+  EXPECT_EQ(section.title, "m in 3 setups");
+  EXPECT_EQ(section.id, view.blocks()[0].id) << "to which numbers lead";
+  const auto& table = std::get<Table>(section.blocks.back());
+  EXPECT_EQ(table.caption, section.title);
+  ASSERT_EQ(table.rows.size(), 3U);
+  EXPECT_EQ(std::get<TextCell>(table.rows[1].cells[0]).text, "outdoors");
+  EXPECT_EQ(std::get<NumberCell>(table.rows[1].cells[1]).value, 0.1);
+  EXPECT_EQ(report.opening.numbers.items.at(0).section, section.id);
+  // With a figure of its own, a setup has a section of its own.
+  StudyFigures figures;
+  figures.groups.push_back({view.blocks()[1].id, "outdoors", "", {Figure{.id = "f"}}});
+  EXPECT_EQ(results_report({.view = view, .comparisons = {}, .figures = figures, .provenance = {}})
+                .sections.size(),
+            4U);
+}
+
 TEST(ResultsView, AnOverviewHasAColumnPerLevelOfAText) {
   Rows rows;
   for (const char* terrain : {"grass", "gravel", "road"})

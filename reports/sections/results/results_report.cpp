@@ -148,6 +148,63 @@ Section block_section(const ResultsReportInput& input, const ResultsBlock& block
   return section;
 }
 
+/// Whether a block is all of its setup and has a single level, no figure, and one line of a table.
+bool is_one_line(const ResultsReportInput& input, const ResultsBlock& block) {
+  const std::vector<ResultsBlock>& blocks = input.view.blocks();
+  const auto has_setup = [&](const ResultsBlock& other) {
+    return other.conditions.front().setup == block.conditions.front().setup;
+  };
+  const bool is_all_of_setup = (&block == &blocks.front() || !has_setup(*(&block - 1))) &&
+                               (&block == &blocks.back() || !has_setup(*(&block + 1)));
+  return is_all_of_setup && block.factor.empty() && input.view.study().runs.empty() &&
+         only_line(input.view, block) &&
+         std::ranges::find(input.figures.groups, block.id, &FigureGroup::id) ==
+             input.figures.groups.end();
+}
+
+/// Whether two such blocks, of the same method, have the same columns and notes.
+bool are_alike(const ResultsReportInput& input, const ResultsBlock& a, const ResultsBlock& b) {
+  const ResultsView& view = input.view;
+  const RunCounts of_a = view.counts_of(a.conditions.front().setup);
+  const RunCounts of_b = view.counts_of(b.conditions.front().setup);
+  return view.quantities(a) == view.quantities(b) &&
+         why_no_figures(view, a) == why_no_figures(view, b) &&
+         only_line(view, a)->index == only_line(view, b)->index && of_a.runs == of_b.runs &&
+         of_a.groups == of_b.groups;
+}
+
+/// How many blocks from one on share its section, at least one.
+std::size_t count_alike(const ResultsReportInput& input, std::span<const ResultsBlock> blocks) {
+  std::size_t count = 1;
+  while (is_one_line(input, blocks.front()) && count < blocks.size() &&
+         is_one_line(input, blocks[count]) && are_alike(input, blocks.front(), blocks[count]))
+    ++count;
+  return count;
+}
+
+/// The id of the section that shows a block.
+std::string section_id(const ResultsReportInput& input, const ResultsBlock& block) {
+  std::span<const ResultsBlock> rest = input.view.blocks();
+  for (std::size_t alike = 0; !rest.empty(); rest = rest.subspan(alike)) {
+    alike = count_alike(input, rest);
+    if (&block < &rest.front() + alike) return rest.front().id;
+  }
+  return block.id;
+}
+
+/// Blocks that would have a section with one line of a table each.
+Section section_of_alike(const ResultsReportInput& input, std::span<const ResultsBlock> blocks) {
+  const std::size_t method = only_line(input.view, blocks.front())->index;
+  Section section{
+      blocks.front().id,
+      fmt::format("{} in {} setups", input.view.study().methods[method].label, blocks.size()),
+      {}};
+  for (Paragraph& paragraph : why_no_figures(input.view, blocks.front()))
+    section.blocks.emplace_back(std::move(paragraph));
+  section.blocks.emplace_back(blocks_table(input.view, blocks, section.title));
+  return section;
+}
+
 Section overview_section(const ResultsReportInput& input, const ResultsOverview& overview) {
   Section section{overview.id, overview.title, {}};
   const auto group = std::ranges::find(input.figures.groups, overview.id, &FigureGroup::id);
@@ -181,6 +238,12 @@ std::vector<Section> sections_of(const ResultsReportInput& input, bool has_openi
   const std::vector<Label>& setups = input.view.study().setups;
   const std::vector<ResultsBlock>& blocks = input.view.blocks();
   for (auto block = blocks.begin(); block != blocks.end();) {
+    const std::span<const ResultsBlock> rest(block, blocks.end());
+    if (const std::size_t alike = count_alike(input, rest); alike > 1) {
+      sections.push_back(section_of_alike(input, rest.first(alike)));
+      block += static_cast<std::ptrdiff_t>(alike);
+      continue;
+    }
     const std::string setup = block->conditions.front().setup;
     const std::size_t first = sections.size();
     add_grid_section(input, setup, sections);
@@ -369,7 +432,8 @@ std::string few_associated(const ResultsStudy& study) {
 
 /// Where nothing is compared: the first method's means of the quantities that a study judges by,
 /// where they are judged first.
-void add_means(const ResultsView& view, Highlights& numbers) {
+void add_means(const ResultsReportInput& input, Highlights& numbers) {
+  const ResultsView& view = input.view;
   const ResultsStudy& study = view.study();
   std::vector<std::string> shown;
   for (const ResultsBlock& block : view.blocks())
@@ -386,7 +450,8 @@ void add_means(const ResultsView& view, Highlights& numbers) {
       numbers.items.push_back(
           {quantity->label + (block.factor.empty() ? "" : ", " + view.words_of(block, last)),
            quantity_text(mean->mean, quantity->unit), study.methods[lines.front().index].label,
-           block.id, quantity->id == kAssociatedPercent && !few_associated(study).empty()});
+           section_id(input, block),
+           quantity->id == kAssociatedPercent && !few_associated(study).empty()});
     }
 }
 
@@ -481,7 +546,7 @@ Highlights numbers_of(const ResultsReportInput& input, const std::vector<std::st
   } else {
     add_best_values(input, numbers);
     if (numbers.items.empty()) add_best_over_runs(input, numbers);
-    if (numbers.items.empty()) add_means(input.view, numbers);
+    if (numbers.items.empty()) add_means(input, numbers);
   }
   if (numbers.items.empty())
     numbers.items.push_back({study.methods.size() == 1 ? "method" : "methods",

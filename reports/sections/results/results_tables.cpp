@@ -349,6 +349,34 @@ std::vector<Table> results_tables(const ResultsView& view, const ResultsBlock& b
   return tables;
 }
 
+std::optional<ResultsLine> only_line(const ResultsView& view, const ResultsBlock& block) {
+  const std::vector<ResultsLine> lines = all_lines(view, block);
+  return lines.size() == 1 ? std::optional(lines.front()) : std::nullopt;
+}
+
+Table blocks_table(const ResultsView& view, std::span<const ResultsBlock> blocks,
+                   const std::string& title) {
+  const ResultsBlock& first = blocks.front();
+  Table table;
+  table.id = id_below(first.id, "means");
+  table.caption = title;
+  table.columns.push_back({"Setup", "", "", ""});
+  CellMaker cells(view, table);
+  for (const Quantity* quantity : view.quantities(first)) cells.add_column(*quantity);
+  for (const ResultsBlock& block : blocks) {
+    ResultsLine line = *only_line(view, block);
+    line.label = block.title;  // Notes name the row.
+    Row row{{TextCell{line.label}}, "", false};
+    for (const Quantity* quantity : view.quantities(block))
+      cells.add(row, block.conditions.front(), line, *quantity, quantity->label);
+    table.rows.push_back(std::move(row));
+    add_status_notes(view, block, {line}, table);
+  }
+  cells.add_notes();
+  add_note(view, first.conditions.front().setup, table);
+  return table;
+}
+
 std::vector<Table> overview_tables(const ResultsView& view, const ResultsOverview& overview) {
   std::vector<Table> tables;
   for (const std::string& id : view.study().quantities) {
