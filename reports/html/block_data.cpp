@@ -390,6 +390,12 @@ data table_data(const Table& table, const FigureContext& drawn, const HtmlOption
   return out;
 }
 
+/// The id of the element that a number links to: its table, else its section; empty: none.
+std::string target_of(const Highlights::Item& item) {
+  if (!item.table.empty()) return "table-" + item.table;
+  return item.section.empty() ? "" : "section-" + item.section;
+}
+
 list highlight_items(const Highlights& highlights) {
   list items;
   for (const Highlights::Item& item : highlights.items) {
@@ -397,7 +403,7 @@ list highlight_items(const Highlights& highlights) {
     out.set("label", page_text(item.label));
     out.set("value", page_text(item.value));
     out.set("detail", text_or_false(page_text(item.detail)));
-    out.set("section", text_or_false(item.section));
+    out.set("target", text_or_false(target_of(item)));
     out.set("falls_short", data(item.falls_short));
     items.push_back(std::move(out));
   }

@@ -51,9 +51,12 @@ void check(const Report& report) {
   };
   for (const std::string& id : report.opening.figure_ids) require_figure(id);
   if (!report.opening.main_figure.empty()) require_figure(report.opening.main_figure);
-  for (const Highlights::Item& number : report.opening.numbers.items)
+  for (const Highlights::Item& number : report.opening.numbers.items) {
     if (!number.section.empty() && !section_ids.has(number.section))
       throw InvalidInput("report: there is no section \"" + printable(number.section) + "\"");
+    if (!number.table.empty() && !table_ids.has(number.table))
+      throw InvalidInput("report: there is no table \"" + printable(number.table) + "\"");
+  }
 }
 
 bool holds_text(const Table& table, std::size_t column) {

@@ -57,6 +57,7 @@ struct Highlights {
     std::string section =
         {};  ///< Id of the section that says more; empty: the item links to nothing.
     bool falls_short = false;  ///< Of what it is compared with; a page marks it.
+    std::string table = {};    ///< Id of the table that has the number: the link leads there.
   };
   std::vector<Item> items;
 };

@@ -18,6 +18,7 @@
 #include "reports/sections/method_ranks.hpp"
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/study_counts.hpp"
+#include "reports/sections/tables/method_tables.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
@@ -71,9 +72,11 @@ void add_agreement(const std::vector<SensorMethods>& sensors, Highlights& number
                 ? fmt::format("in the other {} ours is smaller", outside)
                 : fmt::format("ours is smaller in {} of the other {}", all.ours_smaller, outside);
   if (all.apart > 0) detail += fmt::format("; {} more cannot be compared", all.apart);
-  numbers.items.push_back({"published errors inside our 95\u00a0% intervals",
-                           fmt::format("{} of {}", all.within, all.compared), std::move(detail),
-                           sensors.front().section()});
+  numbers.items.push_back({.label = "published errors inside our 95\u00a0% intervals",
+                           .value = fmt::format("{} of {}", all.within, all.compared),
+                           .detail = std::move(detail),
+                           .section = sensors.front().section(),
+                           .table = paper_table_id(*sensors.front().study, "accuracy")});
 }
 
 /// What the maps are compared with: always with the world, and with a paper if it prints errors.
@@ -88,17 +91,21 @@ Paragraph compared_with(const std::vector<SensorMethods>& sensors) {
 void add_orderings(const Study& study, const std::vector<SensorMethods>& sensors,
                    Highlights& numbers) {
   int tried = 0, held = 0, significant = 0;
+  const SensorMethods* first = nullptr;  // Of which an ordering was tried.
   for (const SensorMethods& sensor : sensors)
     for (const OrderingClaim& claim : ordering_claims(study, *sensor.study)) {
       if (!claim.difference_m) continue;
       ++tried;
+      if (first == nullptr) first = &sensor;
       held += claim.holds() ? 1 : 0;
       significant += claim.holds() && claim.is_significant() ? 1 : 0;
     }
-  if (tried > 0)
-    numbers.items.push_back(
-        {"published orderings of methods hold", fmt::format("{} of {}", held, tried),
-         fmt::format("{} of them significantly", significant), sensors.front().section()});
+  if (first != nullptr)
+    numbers.items.push_back({.label = "published orderings of methods hold",
+                             .value = fmt::format("{} of {}", held, tried),
+                             .detail = fmt::format("{} of them significantly", significant),
+                             .section = first->section(),
+                             .table = ordering_table_id(*first->study)});
 }
 
 void add_best(const SensorMethods& sensor, Highlights& numbers) {
@@ -112,8 +119,11 @@ void add_best(const SensorMethods& sensor, Highlights& numbers) {
   if (const SettingSummary* paper = best_published(sensor.methods))
     detail = fmt::format("best published: {}, {}; ours: {}", whole_metres(paper->published->mpe_m),
                          info(paper->setting.method).label, detail);
-  numbers.items.push_back(
-      {label_text, whole_metres(best->mpe_m->mean), std::move(detail), sensor.section()});
+  numbers.items.push_back({.label = label_text,
+                           .value = whole_metres(best->mpe_m->mean),
+                           .detail = std::move(detail),
+                           .section = sensor.section(),
+                           .table = paper_table_id(*sensor.study, "accuracy")});
 }
 
 void add_ends(const StudyCounts& counts, Highlights& numbers) {

@@ -356,6 +356,8 @@ TEST(StudyOpening, BeginsWithHowThePublishedNumbersCompare) {
       {Method::kSmacofKnn, Method::kIsomap, Method::kLpca}, {Method::kLpca, Method::kSmacof}};
   const StudyFigures figures = synthetic_figures(study);
   const Opening opening = study_opening(study, figures);
+  const Highlights::Item& orderings = opening.numbers.items.at(1);
+  EXPECT_TRUE(orderings.table.starts_with("orderings-")) << orderings.label;
   int compared = 0, within = 0;
   for (const SensorStudy& sensor : study.experiment.sensors) {
     const PublishedAgreement agreement =

@@ -234,6 +234,9 @@ TEST(SlamOpening, IsAFewNumbersAndWhatTheyCompareWith) {
   EXPECT_NE(all.find("2 recorded drives"), std::string::npos) << all;
   EXPECT_EQ(opening.main_figure, "fig-2b");
   EXPECT_LT(all.size(), 1330U) << all;
+  EXPECT_EQ(opening.numbers.items.front().table,
+            std::get<Table>(slam_accuracy_section(study).value().blocks.front()).id)
+      << "where the error is seen";
 }
 
 TEST(SlamOpening, SaysOnItsTileWhatTheSlopeRestsOn) {

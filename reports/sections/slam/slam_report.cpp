@@ -381,6 +381,11 @@ std::string best_of_drives(const SlamStudy& study) {
   return text;
 }
 
+/// The table of the errors of all methods on recorded data.
+std::string error_table_id(const SlamStudy& study) {
+  return is_of_paper(study) ? "table-plaza" : "slam-errors";
+}
+
 /// "0.19 m" of the refined map or else of the spectral one, with what it compares with: the method
 /// of least error if that is another one, and the other ones; each with its alignment.
 std::optional<Highlights::Item> error_number(const SlamRun& run) {
@@ -410,12 +415,14 @@ std::optional<Highlights::Item> error_number(const SlamRun& run) {
 void add_run_numbers(const SlamStudy& study, Highlights& numbers) {
   for (const SlamRun& run : study.runs) {
     if (run.simulated || numbers.items.size() == kMostRuns) continue;
-    if (auto number = error_number(run))
+    if (auto number = error_number(run)) {
+      number->table = error_table_id(study);
       numbers.items.push_back(*std::move(number));
-    else
+    } else {
       numbers.items.push_back({"landmarks mapped, " + title_of(run),
                                fmt::format("{}", run.log.landmarks.size()),
                                "no error: there is no true path", "slam-accuracy"});
+    }
   }
 }
 
@@ -535,9 +542,9 @@ std::optional<Section> slam_accuracy_section(const SlamStudy& study) {
   const RunList runs = runs_of(study, false);
   if (runs.empty()) return std::nullopt;
   Section section{"slam-accuracy", "Range-only SLAM: methods", {}, "", Interest::kMost};
-  Table errors = is_of_paper(study)
-                     ? slam_error_table("table-plaza", "Methods on the Plaza data sets", runs)
-                     : slam_error_table("slam-errors", "Methods", runs);
+  Table errors =
+      slam_error_table(error_table_id(study),
+                       is_of_paper(study) ? "Methods on the Plaza data sets" : "Methods", runs);
   if (is_of_paper(study))
     errors.notes.emplace_back(
         "Published: the paper\u2019s text prints no errors of these methods, so no column holds "

@@ -224,10 +224,14 @@ Table rank_table(const SensorStudy& sensor, const MethodRanks& ranks, int mpe_de
   return table;
 }
 
+std::string ordering_table_id(const SensorStudy& sensor) {
+  return fmt::format("orderings-{}", name(sensor.sensor.sensor));
+}
+
 Table ordering_table(const SensorStudy& sensor, std::span<const OrderingClaim> claims,
                      int mpe_decimals) {
   Table table;
-  table.id = fmt::format("orderings-{}", name(sensor.sensor.sensor));
+  table.id = ordering_table_id(sensor);
   table.caption = title_of(sensor.sensor.sensor) + ": the paper\u2019s orderings";
   table.columns = {{"Less MPE", "", "Claim", ""},
                    {"More MPE", "", "Claim", ""},

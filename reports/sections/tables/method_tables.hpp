@@ -42,6 +42,8 @@ Table half_table(const SensorStudy& sensor, const HalfChoices& choices, int mpe_
 /// Mean ranks over layouts, Friedman's test and the significant differences by Nemenyi's.
 Table rank_table(const SensorStudy& sensor, const MethodRanks& ranks, int mpe_decimals);
 
+std::string ordering_table_id(const SensorStudy& sensor);
+
 /// The paper's orderings, each compared with the runs.
 Table ordering_table(const SensorStudy& sensor, std::span<const OrderingClaim> claims,
                      int mpe_decimals);
