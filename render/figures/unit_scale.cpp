@@ -34,6 +34,7 @@ ScaledUnit scaled_unit(const std::string& unit, double greatest) {
   if (unit == "rad" && greatest < 1e-2) return {"mrad", 1e3};
   if (unit == "s" && greatest < 1e-3) return {"µs", 1e6};
   if (unit == "s" && greatest < 1.0) return {"ms", 1e3};
+  if (unit == "ms" && greatest < 1.0) return {"µs", 1e3};
   if (unit == "ppm" && greatest < kLeastPpm) return power_unit(greatest);
   return {unit};
 }

@@ -471,6 +471,7 @@ TEST(ScaledUnit, HasNeitherPowersNorManyZeros) {
   EXPECT_EQ(words("rad", 6.04e-4), "0.604 mrad");
   EXPECT_EQ(words("s", 0.032), "32 ms");
   EXPECT_EQ(words("s", 4.7e-4), "470 µs");
+  EXPECT_EQ(words("ms", 0.0201), "20.1 µs");
   EXPECT_EQ(words("ppm", 4.6e-9), "4.6 10⁻¹⁵");
   EXPECT_EQ(words("ppm", 12.0), "12 ppm");
   EXPECT_EQ(words("%", 1e-9), "1e-09 %");

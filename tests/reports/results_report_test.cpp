@@ -53,6 +53,17 @@ TEST(ResultsReport, CrownsNoMethodForItsCoverageAndSaysItsPoses) {
   EXPECT_EQ(best.detail, "many (785 poses); few (32 poses) 0.0240\u00a0m");
 }
 
+TEST(ResultsReport, GivesTheNumberOfATileInTheUnitThatKeepsItShort) {
+  Rows rows("scan_s");
+  rows.declare(study_quantity("scan_s", "time per scan", "s", Better::kLower));
+  rows.add("fast", "a1", 2.01e-5).add("slow", "a1", 0.0015).add("slower", "a1", 0.014);
+  const ResultsStudy study = rows.study();
+  const ResultsView view(study);
+  const Report report = results_report(
+      {.view = view, .comparisons = compare_methods(view), .figures = {}, .provenance = {}});
+  EXPECT_EQ(report.opening.numbers.items.at(0).value, "20.1\u00a0µs");
+}
+
 TEST(ResultsReport, WarnsOfPathsOfWhichFewPosesAreAssociated) {
   const auto warns = [](double percent) {
     Rows rows("associated_percent");
