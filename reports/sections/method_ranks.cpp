@@ -58,7 +58,7 @@ OrderingClaim claim_of(Method less, Method more, const std::vector<SettingScores
   claim.difference_m = differences.mean();
   std::map<int, double> sums;
   for (std::size_t i = 0; i < differences.values.size(); ++i)
-    sums[differences.layouts[i]] += differences.values[i];
+    sums[differences.runs[i].layout] += differences.values[i];
   claim.layouts = static_cast<int>(sums.size());
   claim.layouts_where = static_cast<int>(
       std::ranges::count_if(sums, [](const auto& layout) { return layout.second > 0.0; }));
@@ -96,6 +96,25 @@ MethodRanks method_ranks(const Study& study, const SensorStudy& sensor, double a
       nemenyi_critical_difference(ranks.test->methods, ranks.test->units, alpha);
   ranks.alike = alike_groups(ranks.test->mean_ranks, ranks.critical_difference);
   return ranks;
+}
+
+SensorComparison compare_methods(const Study& study, const SensorStudy& sensor) {
+  SensorComparison comparison;
+  std::vector<MethodRuns> methods;
+  for (const SettingScores& scores : best_scores(study, sensor)) {
+    if (!scores.runs.empty())
+      methods.push_back({comparison.settings.size(), errors_of(scores, &Score::mpe_m).by_run()});
+    comparison.settings.push_back(scores.setting);
+  }
+  comparison.paired = compare_runs(std::move(methods), layouts_by_run(study), true);
+  return comparison;
+}
+
+std::string disagreement_of(const SensorComparison& comparison) {
+  if (!comparison.paired) return "";
+  return disagreement_of(
+      *comparison.paired, [&](std::size_t method) { return label(comparison.settings[method]); },
+      "layout");
 }
 
 bool OrderingClaim::is_significant() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -8,11 +9,9 @@
 #include "core/model/study.hpp"
 #include "core/statistics/friedman.hpp"
 #include "core/statistics/intervals.hpp"
+#include "reports/sections/results/paired_methods.hpp"
 
 namespace mapproof {
-
-/// The level of significance of comparisons of methods: of their ranks and paired differences.
-inline constexpr double kSignificanceOfMethods = 0.05;
 
 /// The methods of one sensor ranked by MPE, each at its best parameter; layouts are the units,
 /// since runs in one layout are not independent. What a critical-difference diagram shows.
@@ -31,6 +30,17 @@ struct MethodRanks {
 
 MethodRanks method_ranks(const Study& study, const SensorStudy& sensor,
                          double alpha = kSignificanceOfMethods);
+
+/// The methods of one sensor, each at its best parameter, compared by MPE; layouts are the groups.
+struct SensorComparison {
+  std::vector<MethodSetting> settings;  ///< By the numbers of the methods in `paired`.
+  std::optional<PairedMethods> paired;  ///< Empty where no two have a run in common.
+};
+
+SensorComparison compare_methods(const Study& study, const SensorStudy& sensor);
+
+/// Which methods paired test and mean ranks judge otherwise, see paired_methods.hpp.
+std::string disagreement_of(const SensorComparison& comparison);
 
 /// "One method has a lower MPE than another", compared with the runs.
 struct OrderingClaim {

@@ -1,6 +1,9 @@
 #include "reports/sections/run_scores.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 namespace mapproof {
 
@@ -32,9 +35,36 @@ std::vector<std::span<const SettingScores>> by_method(std::span<const SettingSco
   return methods;
 }
 
+const SettingScores* scores_of(std::span<const SettingScores> scores,
+                               const MethodSetting& setting) {
+  const auto found = std::ranges::find(scores, setting, &SettingScores::setting);
+  return found == scores.end() ? nullptr : &*found;
+}
+
 std::optional<MeanEstimate> RunValues::mean() const {
   if (values.empty()) return std::nullopt;
+  std::vector<int> layouts;
+  for (const RunId& run : runs) layouts.push_back(run.layout);
   return clustered_mean(values, layouts);
+}
+
+ValuesByRun RunValues::by_run() const {
+  ValuesByRun values_by_run;
+  for (std::size_t i = 0; i < values.size(); ++i) values_by_run[slug(runs[i])] = values[i];
+  return values_by_run;
+}
+
+RunValues errors_of(const SettingScores& scores, double Score::*error) {
+  RunValues errors;
+  for (const auto& [run, score] : scores.runs) errors.add(run, score.*error);
+  return errors;
+}
+
+GroupsByRun layouts_by_run(const Study& study) {
+  GroupsByRun layouts;
+  for (const Run& run : study.runs)
+    layouts.set(slug(run.id), fmt::format("layout-{}", run.id.layout));
+  return layouts;
 }
 
 RunValues mpe_differences_m(const SettingScores& a, const SettingScores& b) {

@@ -13,6 +13,7 @@
 #include "reports/model/format.hpp"
 #include "reports/sections/certificates.hpp"
 #include "reports/sections/findings.hpp"
+#include "reports/sections/method_ranks.hpp"
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/opening.hpp"
 #include "reports/sections/study_counts.hpp"
@@ -47,16 +48,20 @@ void add_half(const SensorStudy& sensor, const HalfChoices& choices, int decimal
   section.blocks.emplace_back(half_table(sensor, choices, decimals));
 }
 
-void add_ranks(const SensorStudy& sensor, const MethodRanks& ranks, int decimals,
-               Section& section) {
-  if (ranks.test)
-    section.blocks.emplace_back(rank_table(sensor, ranks, decimals));
-  else
+void add_ranks(const Study& study, const SensorStudy& sensor, int decimals, Section& section) {
+  const MethodRanks ranks = method_ranks(study, sensor);
+  if (ranks.test) {
+    Table table = rank_table(sensor, ranks, decimals);
+    if (std::string note = disagreement_of(compare_methods(study, sensor)); !note.empty())
+      table.notes.push_back(std::move(note));
+    section.blocks.emplace_back(std::move(table));
+  } else {
     section.blocks.emplace_back(
         plain(fmt::format("Methods cannot be ranked by a test: {} scored by {} in common; two of "
                           "each are needed.",
                           counted(std::ssize(ranks.layouts), "layout"),
                           counted(std::ssize(ranks.methods), "method"))));
+  }
 }
 
 constexpr std::size_t kLocationsShown = 5;  ///< With what was found; of the others the id alone.
@@ -193,7 +198,7 @@ Section accuracy_section(const Study& study, const SensorStudy& sensor) {
                           [](const OrderingClaim& one) { return one.difference_m.has_value(); }))
     section.blocks.emplace_back(ordering_table(sensor, claims, decimals));
   if (grid) add_half(sensor, half_choices(study, sensor), decimals, section);
-  if (best.size() > 1) add_ranks(sensor, method_ranks(study, sensor), decimals, section);
+  if (best.size() > 1) add_ranks(study, sensor, decimals, section);
   section.blocks.emplace_back(spread_table(sensor, best, decimals));
   if (grid) section.blocks.emplace_back(parameter_table(sensor, all, decimals));
   for (std::size_t i = main_blocks; i < section.blocks.size(); ++i)

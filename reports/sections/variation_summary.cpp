@@ -15,7 +15,6 @@
 
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
-#include "reports/sections/run_scores.hpp"
 #include "reports/sections/tables/cells.hpp"
 #include "reports/sections/wording.hpp"
 
@@ -126,9 +125,9 @@ std::vector<VariedSetting> summarize(const Study& study, const Variation& variat
                         .scored = std::vector<int>(levels),
                         .statuses = std::vector<std::map<StatusCode, int>>(levels),
                         .mpe_m = {},
-                        .moe_percent = {}});
-  std::vector<std::vector<RunValues>> mpe(settings.size(), std::vector<RunValues>(levels));
-  auto moe = mpe;
+                        .moe_percent = {},
+                        .mpe_by_run = std::vector<RunValues>(levels)});
+  std::vector<std::vector<RunValues>> moe(settings.size(), std::vector<RunValues>(levels));
   for (const Run& run : study.runs)
     for (const VariationRecord& record : run.variations) {
       if (record.variation != variation.id) continue;
@@ -143,12 +142,12 @@ std::vector<VariedSetting> summarize(const Study& study, const Variation& variat
       for (const StatusCode code : codes) ++settings[i].statuses[level][code];
       if (!record.score || !usable(*record.score)) continue;
       ++settings[i].scored[level];
-      mpe[i][level].add(run.id, record.score->mpe_m);
+      settings[i].mpe_by_run[level].add(run.id, record.score->mpe_m);
       moe[i][level].add(run.id, record.score->moe_percent);
     }
   for (std::size_t i = 0; i < settings.size(); ++i)
     for (std::size_t level = 0; level < levels; ++level) {
-      settings[i].mpe_m.push_back(mpe[i][level].mean());
+      settings[i].mpe_m.push_back(settings[i].mpe_by_run[level].mean());
       settings[i].moe_percent.push_back(moe[i][level].mean());
     }
   return settings;

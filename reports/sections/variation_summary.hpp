@@ -7,6 +7,7 @@
 #include "core/model/study.hpp"
 #include "reports/model/report.hpp"
 #include "reports/sections/method_summary.hpp"
+#include "reports/sections/run_scores.hpp"
 
 namespace mapproof {
 
@@ -19,6 +20,7 @@ struct VariedSetting {
   std::vector<std::map<StatusCode, int>> statuses;
   std::vector<std::optional<MeanEstimate>> mpe_m;  ///< Over the scored.
   std::vector<std::optional<MeanEstimate>> moe_percent;
+  std::vector<RunValues> mpe_by_run;  ///< What mpe_m are the means of.
 };
 
 /// Every setting of a variation, in its order.

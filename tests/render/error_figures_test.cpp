@@ -265,6 +265,25 @@ TEST(BestLine, IsJudgedByThePairedTestWhereThereIsOne) {
             "A has the lowest MPE at all 3 points; differences are not significant at 1");
 }
 
+TEST(BestLine, OfAllIsJudgedByTheTestOfOnePointOfEachLine) {
+  using enum PairedWithBest;
+  ErrorLine a = three_points("A", {1, 2, 3}, 0.3), b = three_points("B", {3, 1.2, 3}, 0.3);
+  EXPECT_EQ(best_of_all({a, b}, {}, {"K"}), "") << "intervals overlap";
+  a.paired = {kBest, kUntested, kUntested};
+  b.paired = {kUntested, kWorse, kUntested};
+  EXPECT_EQ(best_of_all({a, b}, {}, {"K"}), "A has the lowest MPE, 1.00\u00A0m at K\u00A0=\u00A01");
+  b.paired[1] = kAlike;
+  EXPECT_EQ(best_of_all({a, b}, {}, {"K"}), "");
+}
+
+TEST(BestLine, TiesAtTheEndAreCounted) {
+  const ErrorLine a = three_points("A", {1, 2, 3}, 0.3), b = three_points("B", {1, 2, 3.1}, 0.3),
+                  c = three_points("C", {1, 2, 9}, 0.3);
+  EXPECT_EQ(ties_at_end({a, b, c}, {}), 2U);
+  EXPECT_EQ(ties_at_end({c}, {}), 1U);
+  EXPECT_EQ(ties_at_end({}, {}), 0U);
+}
+
 TEST(BestLine, IsNoneWhereIntervalsOrShownDigitsTie) {
   EXPECT_EQ(best_over({three_points("A", {1, 2, 3}, 0.3), three_points("B", {1.5, 2.5, 3.5}, 0.3)},
                       {}, {"noise"}),

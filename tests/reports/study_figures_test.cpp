@@ -8,6 +8,7 @@
 #include "render/figures/curves/error_lines.hpp"
 #include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/study_report.hpp"
+#include "tests/reports/section_text.hpp"
 #include "tests/reports/synthetic_study.hpp"
 #include "tests/support/samples/worlds.hpp"
 
@@ -185,6 +186,64 @@ const Figure* figure_with_id(const StudyFigures& figures, const std::string& id)
   for (const Figure* figure : all_figures(figures))
     if (figure->id == id) return figure;
   return nullptr;
+}
+
+/// Adds a variation of two levels of noise, on which SMACOF, kNN weights, and ISOMAP are tried.
+void add_levels(Study& study) {
+  study.experiment.variations = {
+      Variation{.id = "noise",
+                .sensor = Sensor::kVisibility,
+                .factor = Factor::kNoise,
+                .levels = {0.0, 0.1},
+                .step = 2000,
+                .placement = std::nullopt,
+                .settings = {{Method::kSmacofKnn, 6.0}, {Method::kIsomap, 6.0}}}};
+  const Variation& variation = study.experiment.variations.front();
+  for (mapproof::Run& run : study.runs)
+    for (const double level : variation.levels)
+      for (const MethodSetting& setting : variation.settings) {
+        const double mpe = (1.0 + level) * test::synthetic_mpe(setting, run.id, variation.step);
+        run.variations.push_back(
+            {variation.id, level, setting, {}, Score{mpe, 20.0 * mpe, 0.8 * mpe, 20.0 * mpe}});
+      }
+}
+
+TEST(StudyFigures, TitlesJudgeByThePairedTestOfTheSentences) {
+  // Layouts differ more than these two methods do, of which one is the better in every run.
+  Study study = synthetic_study(5, 2);
+  add_levels(study);
+  const StudyFigures figures = test::synthetic_figures(study);
+  for (const auto& [id, words] :
+       {std::pair("mpe-visibility-graph",
+                  "of the 2 on a neighbour graph, SMACOF kNN has the lowest MPE"),
+        {"moe-visibility-graph", "SMACOF kNN has the lowest MOE"},
+        {"level-noise", "SMACOF kNN has the lowest MPE throughout"},
+        {"cost-visibility", "whatever the time, SMACOF kNN has the lowest MPE"}}) {
+    const Figure* figure = figure_with_id(figures, id);
+    ASSERT_NE(figure, nullptr) << id;
+    EXPECT_NE(figure->title.find(words), std::string::npos) << figure->title;
+  }
+  const std::string caption = figure_with_id(figures, "ranks-visibility")->caption;
+  EXPECT_NE(caption.find("The paired test distinguishes ISOMAP"), std::string::npos) << caption;
+  const std::string summary = test::words(summary_section(study));
+  EXPECT_NE(summary.find("ISOMAP, K = 6 follows with 0.294"), std::string::npos) << summary;
+  EXPECT_NE(summary.find(": a significant difference, p"), std::string::npos) << summary;
+}
+
+TEST(StudyFigures, TitlesRankNoMethodThatIsTheBetterInSomeLayoutsAlone) {
+  Study study = synthetic_study(5, 2);
+  for (mapproof::Run& run : study.runs)
+    for (RunRecord& record : run.records)
+      if (record.setting.method == Method::kIsomap && record.score) {
+        const double mpe = test::synthetic_mpe({Method::kSmacofKnn, 6.0}, run.id, record.step) +
+                           (run.id.layout % 2 == 0 ? -0.05 : 0.05);
+        record.score = Score{mpe, 20.0 * mpe, 0.8 * mpe, 20.0 * mpe};
+      }
+  const StudyFigures figures = test::synthetic_figures(study);
+  const std::string title = figure_with_id(figures, "mpe-visibility-graph")->title;
+  EXPECT_NE(title.find("all of the 2 on a neighbour graph have"), std::string::npos) << title;
+  const std::string summary = test::words(summary_section(study));
+  EXPECT_NE(summary.find(": no significant difference, p"), std::string::npos) << summary;
 }
 
 /// The settings on the cost figure of a sensor.

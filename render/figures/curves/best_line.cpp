@@ -121,8 +121,7 @@ bool are_shown_alike(const At& a, const At& b, const LineQuantity& quantity) {
 /// interval of what diverged reaches far down and shows nothing.
 bool is_alike(const At& at, const At& best, const LineQuantity& quantity) {
   if (quantity.has_diverged(at.mean()) || quantity.has_diverged(best.mean())) return false;
-  const bool have_test =
-      at.x() == best.x() && at.is_tested() && best.paired() == PairedWithBest::kBest;
+  const bool have_test = at.is_tested() && best.paired() == PairedWithBest::kBest;
   return have_test ? at.paired() == PairedWithBest::kAlike : overlap(at, best);
 }
 
@@ -299,6 +298,11 @@ std::string best_at_end(const std::vector<ErrorLine>& lines, const LineQuantity&
                      listed(value_texts(means, quantity), kMostNamed));
 }
 
+std::size_t ties_at_end(const std::vector<ErrorLine>& lines, const LineQuantity& quantity) {
+  const std::set<double> xs = xs_of(lines);
+  return xs.empty() ? 0 : best_at(lines, *xs.rbegin(), quantity).size();
+}
+
 std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& quantity,
                       const LineAxis& axis) {
   const std::set<double> xs = xs_of(lines);
@@ -409,8 +413,15 @@ std::string best_of_all(const std::vector<ErrorLine>& lines, const LineQuantity&
                        quantity.lower_is_better ? "lowest" : "highest", quantity.label,
                        line_name(*best.line, lines), value_text(best.mean(), quantity),
                        x_text(axis, best.x(), quantity));
-  const bool has_tie = std::ranges::any_of(
-      known, [&](const At& at) { return at.line != best.line && tie(at, best, quantity); });
+  // Tests are made of one point of each line.
+  const auto is_judged = [&](const At& at) {
+    const bool has_test = std::ranges::any_of(
+        at.line->paired, [](PairedWithBest paired) { return paired != PairedWithBest::kUntested; });
+    return at.is_tested() || !has_test || best.paired() != PairedWithBest::kBest;
+  };
+  const bool has_tie = std::ranges::any_of(known, [&](const At& at) {
+    return at.line != best.line && is_judged(at) && tie(at, best, quantity);
+  });
   if (has_tie) return "";
   return fmt::format("{} {}, {} at {}", line_name(*best.line, lines), has_the_best(quantity, false),
                      value_text(best.mean(), quantity), x_text(axis, best.x(), quantity));

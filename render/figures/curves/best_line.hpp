@@ -34,15 +34,18 @@ std::string line_name(const ErrorLine& line, const std::vector<ErrorLine>& lines
 std::string with_article(const std::string& label);
 
 /// Which line is best at the last x, as a title: "SDE has the lowest MPE after 2000 observations,
-/// 0.14 m". Lines that tie with it, by their intervals or by the digits shown, are named with it;
-/// where they are more than three, or all there are, between which values: "after 2000
-/// observations, 4 of 5 methods have an MPE of 0.19 m to 0.23 m, LEM 0.40 m". A family is named:
-/// "of these 5, SDE has the lowest MPE". Names are short, without parameters that tell no two lines
-/// apart. Empty if nothing is known.
+/// 0.14 m". Lines that tie with it, as of best_over(), are named with it; where they are more than
+/// three, or all there are, between which values: "after 2000 observations, 4 of 5 methods have an
+/// MPE of 0.19 m to 0.23 m, LEM 0.40 m". A family is named: "of these 5, SDE has the lowest MPE".
+/// Names are short, without parameters that tell no two lines apart. Empty if nothing is known.
 ///
 /// @param where  "after {} observations", with {} for x.
 std::string best_at_end(const std::vector<ErrorLine>& lines, const LineQuantity& quantity,
                         const std::string& where);
+
+/// How many lines tie for the best at the last x, as of best_over(), the best among them; 0 if
+/// nothing is known.
+std::size_t ties_at_end(const std::vector<ErrorLine>& lines, const LineQuantity& quantity);
 
 /// Which line is best over the whole axis: "ISOMAP has the lowest MPE throughout", "LPCA has the
 /// lowest MPE at noise = 0, HLLE at 20"; of one line, where it is best. Lines tie where the paired
@@ -60,7 +63,8 @@ bool ends_tie(const ErrorLine& line);
 bool intervals_overlap(const ErrorLine& line, std::size_t i, std::size_t k);
 
 /// Which line has the best value of all, and at which x: "SDE has the lowest MPE, 0.14 m at K = 7".
-/// Empty if nothing is known, or another line's best ties with it.
+/// Empty if nothing is known, or another line ties with it: by the paired test of the points that
+/// have one, else at any x.
 std::string best_of_all(const std::vector<ErrorLine>& lines, const LineQuantity& quantity,
                         const LineAxis& axis);
 

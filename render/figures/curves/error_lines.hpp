@@ -49,7 +49,7 @@ struct ErrorLine {
   std::string setting = {};
   std::string end_label = {};  ///< Likewise, beside its last point; may be empty.
   /// At each x, for titles: where the best line is kBest, tests judge and not intervals. Empty:
-  /// untested.
+  /// untested. A test is of the lines' points at one x, or of one point of each.
   std::vector<PairedWithBest> paired = {};
 };
 

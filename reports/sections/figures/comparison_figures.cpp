@@ -9,14 +9,16 @@
 #include <fmt/format.h>
 
 #include "core/base/median.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "core/statistics/intervals.hpp"
+#include "render/figures/curves/best_line.hpp"
 #include "render/figures/curves/spectrum.hpp"
 #include "render/figures/diagrams/method_comparison.hpp"
 #include "render/figures/diagrams/shepard.hpp"
-#include "render/plot/short_names.hpp"
 #include "reports/model/format.hpp"
+#include "reports/sections/figures/line_judgement.hpp"
 #include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/method_ranks.hpp"
 #include "reports/sections/run_scores.hpp"
@@ -59,6 +61,9 @@ void add_ranks(FigureSource& source, const SensorStudy& sensor, std::vector<Figu
   spec.title = fmt::format("{}: {}", title_of(sensor.sensor.sensor), ranking_title(spec, "MPE"));
   for (const SettingSummary& best : source.best(sensor)) spec.record_ids.push_back(source_of(best));
   figures.push_back(critical_difference_figure(spec));
+  if (const std::string note = disagreement_of(compare_methods(source.study(), sensor));
+      !note.empty())
+    figures.back().caption += " " + note;
 }
 
 /// Of the pairs in the order of SensorDetails::distances.
@@ -207,17 +212,39 @@ class SecondsOfMaps {
   std::map<Key, std::vector<double>> seconds_;
 };
 
-/// Who has the lowest MPE whatever its time, or how many there are whose intervals overlap that of
-/// the lowest. Without times, which vary from run to run.
-/// @param intervals  Of the MPE of each setting.
-/// @param all        Whether no method is left out.
+/// The mean of a setting as the last point of a line.
+ErrorLine end_of(const SettingSummary& summary) {
+  const double mean = summary.mpe_m->mean;
+  const Interval interval = interval_of(summary.mpe_m).value_or(Interval{kNaN, kNaN});
+  return {.label = label(summary.setting),
+          .key = slug(summary.setting),
+          .x = {static_cast<double>(summary.step)},
+          .mean = {mean},
+          .low = {interval.low},
+          .high = {interval.high}};
+}
+
+/// The means of settings, judged by the paired test.
+std::vector<ErrorLine> judged_ends(FigureSource& source, const SensorStudy& sensor,
+                                   const std::vector<SettingSummary>& settings) {
+  std::vector<ErrorLine> lines;
+  for (const SettingSummary& setting : settings) lines.push_back(end_of(setting));
+  std::vector<PointOfSetting> points;
+  for (std::size_t i = 0; i < settings.size(); ++i)
+    points.push_back({&lines[i], 0, settings[i].setting});
+  judge(points, &Score::mpe_m, sensor, source);
+  return lines;
+}
+
+/// Who has the lowest MPE whatever its time, or how many there are that tie for it. Without times,
+/// which vary from run to run.
+/// @param ends  Of the MPE of each setting.
+/// @param all   Whether no method is left out.
 std::string cost_finding(const std::vector<CostedSetting>& settings,
-                         const std::vector<Interval>& intervals, bool all) {
+                         const std::vector<ErrorLine>& ends, bool all) {
   const auto best = std::ranges::min_element(settings, {}, &CostedSetting::mpe_m);
-  const Interval& lowest = intervals[static_cast<std::size_t>(best - settings.begin())];
-  const auto ties =
-      std::ranges::count_if(intervals, [&](const Interval& one) { return one.low <= lowest.high; });
-  const std::string name = without_parameters(short_method_name(best->label));
+  const std::size_t ties = ties_at_end(ends, {});
+  const std::string name = name_alone(best->label);
   const std::string error = error_text(best->mpe_m);
   if (ties > 1)
     return fmt::format("{} of {}{} methods tie for the lowest MPE, {} with {}", ties,
@@ -248,7 +275,7 @@ std::vector<Figure> cost_figures(FigureSource& source, std::span<const Timing> t
   for (const SensorStudy& sensor : source.study().experiment.sensors) {
     ParetoSpec spec;
     spec.id = fmt::format("cost-{}", name(sensor.sensor.sensor));
-    std::vector<Interval> intervals;
+    std::vector<SettingSummary> timed;
     for (const SettingSummary& best : source.best(sensor)) {
       const auto cost = seconds.of(best.sensor, best.step, best.setting);
       if (!best.mpe_m) continue;
@@ -257,13 +284,13 @@ std::vector<Figure> cost_figures(FigureSource& source, std::span<const Timing> t
         continue;
       }
       spec.settings.push_back({label(best.setting), *cost, best.mpe_m->mean});
-      const double mean = best.mpe_m->mean;
-      intervals.push_back(interval_of(best.mpe_m).value_or(Interval{mean, mean}));
+      timed.push_back(best);
       spec.record_ids.push_back(source_of(best));
     }
     if (spec.settings.size() < 2) continue;
-    spec.title = fmt::format("{}: {}", title_of(sensor.sensor.sensor),
-                             cost_finding(spec.settings, intervals, spec.untimed.empty()));
+    spec.title = fmt::format(
+        "{}: {}", title_of(sensor.sensor.sensor),
+        cost_finding(spec.settings, judged_ends(source, sensor, timed), spec.untimed.empty()));
     figures.push_back(pareto_figure(spec));
   }
   return figures;

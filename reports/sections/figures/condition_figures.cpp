@@ -17,7 +17,9 @@
 #include "render/figures/curves/level_curve.hpp"
 #include "render/figures/curves/method_series.hpp"
 #include "reports/sections/figures/line_findings.hpp"
+#include "reports/sections/figures/line_judgement.hpp"
 #include "reports/sections/figures/method_styles.hpp"
+#include "reports/sections/run_scores.hpp"
 #include "reports/sections/variation_summary.hpp"
 #include "reports/sections/wording.hpp"
 
@@ -75,6 +77,18 @@ std::pair<std::string, std::string> ends_of(const Variation& variation) {
   return {axis.unit.empty() ? fmt::format("at {} = {}", axis.name, value(last))
                             : fmt::format("at {} {}", value(last), axis.name),
           "at " + value(first)};
+}
+
+/// Has the lines of settings know how the paired test judges them at each level.
+void judge_levels(const Study& study, const std::vector<VariedSetting>& settings,
+                  std::vector<ErrorLine>& lines) {
+  const GroupsByRun layouts = layouts_by_run(study);
+  for (std::size_t level = 0; level < lines.front().x.size(); ++level) {
+    std::vector<PointOfRuns> points;
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      points.push_back({&lines[i], level, settings[i].mpe_by_run[level].by_run()});
+    judge(std::move(points), layouts);
+  }
 }
 
 /// What came out over the levels; empty if nothing did.
@@ -183,6 +197,7 @@ std::optional<Figure> level_figure(const Study& study, const Variation& variatio
   spec.x_label = level_words(variation);
   for (const VariedSetting& setting : settings)
     spec.methods.push_back(line_over_levels(study.experiment, variation, setting));
+  if (!settings.empty()) judge_levels(study, settings, spec.methods);
   if (const std::string finding = level_finding(variation, spec.methods); !finding.empty())
     spec.title = fmt::format("{}: {}", title_of(variation.sensor), finding);
   spec.record_ids = {record_of(variation)};

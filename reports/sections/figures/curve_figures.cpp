@@ -9,6 +9,7 @@
 #include "core/base/text/number_text.hpp"
 #include "render/figures/curves/best_line.hpp"
 #include "render/figures/curves/error_curve.hpp"
+#include "reports/sections/figures/line_judgement.hpp"
 #include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/wording.hpp"
 
@@ -24,10 +25,13 @@ struct Measure {
   const char* unit;
   const char* words;
   std::optional<MeanEstimate> SettingSummary::*estimate;
+  double Score::*error;  ///< Of a run.
 };
 
-constexpr Measure kMpe{"mpe", "MPE", "m", "mean position error", &SettingSummary::mpe_m};
-constexpr Measure kMoe{"moe", "MOE", "%", "mean orientation error", &SettingSummary::moe_percent};
+constexpr Measure kMpe{"mpe",        "MPE", "m", "mean position error", &SettingSummary::mpe_m,
+                       &Score::mpe_m};
+constexpr Measure kMoe{
+    "moe", "MOE", "%", "mean orientation error", &SettingSummary::moe_percent, &Score::moe_percent};
 
 /// Methods that share a figure, in its order.
 struct Family {
@@ -109,6 +113,10 @@ void add_curves(FigureSource& source, const SensorStudy& sensor, const Measure& 
     spec.curves.push_back(curve(source.study().experiment, steps, measure));
     for (const SettingSummary& summary : steps) spec.record_ids.push_back(source_of(summary));
   }
+  std::vector<PointOfSetting> ends;
+  for (std::size_t i = 0; i < shown.size(); ++i)
+    ends.push_back({&spec.curves[i], shown[i].size() - 1, shown[i].back().setting});
+  judge(ends, measure.error, sensor, source);
   if (const std::string best = best_at_end(spec.curves,
                                            {.label = measure.name,
                                             .unit = measure.unit,

@@ -4,12 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "reports/sections/run_scores.hpp"
-
 namespace mapproof {
 
 FigureSource::FigureSource(const Study& study, StudyReader reader)
-    : study_(study), reader_(std::move(reader)) {}
+    : study_(study), reader_(std::move(reader)), layouts_(layouts_by_run(study)) {}
 
 const std::vector<std::vector<SettingSummary>>& FigureSource::best_history(
     const SensorStudy& sensor) {
@@ -30,6 +28,12 @@ std::vector<SettingSummary> FigureSource::best(const SensorStudy& sensor) {
   for (const auto& steps : best_history(sensor))
     if (!steps.empty() && steps.back().scored > 0) last.push_back(steps.back());
   return last;
+}
+
+const std::vector<SettingScores>& FigureSource::scores(const SensorStudy& sensor) {
+  const auto [found, is_new] = scores_.try_emplace(sensor.sensor.sensor);
+  if (is_new) found->second = run_scores(study_, sensor, last_step(sensor));
+  return found->second;
 }
 
 const MapRecord* FigureSource::map(const RunId& run, Sensor sensor, const MethodSetting& setting,

@@ -8,7 +8,9 @@
 
 #include "core/model/map_record.hpp"
 #include "core/model/study.hpp"
+#include "core/results/values_by_run.hpp"
 #include "reports/sections/method_summary.hpp"
+#include "reports/sections/run_scores.hpp"
 
 namespace mapproof {
 
@@ -30,6 +32,10 @@ class FigureSource {
   const std::vector<std::vector<SettingSummary>>& best_history(const SensorStudy& sensor);
   /// The same at the last checkpoint, methods without a score left out.
   std::vector<SettingSummary> best(const SensorStudy& sensor);
+  /// Every parameter of every method at the last checkpoint, run by run.
+  const std::vector<SettingScores>& scores(const SensorStudy& sensor);
+  /// The layout of each run.
+  const GroupsByRun& layouts() const { return layouts_; }
 
   /// Null if it cannot be read. Pointers hold as long as this.
   const MapRecord* map(const RunId& run, Sensor sensor, const MethodSetting& setting, int step);
@@ -43,7 +49,9 @@ class FigureSource {
  private:
   const Study& study_;
   StudyReader reader_;
+  GroupsByRun layouts_;
   std::map<Sensor, std::vector<std::vector<SettingSummary>>> best_;
+  std::map<Sensor, std::vector<SettingScores>> scores_;
   std::map<RunId, std::vector<MapRecord>> maps_;
   std::map<RunId, std::optional<RunDetails>> details_;
 };

@@ -1,6 +1,8 @@
 #include "reports/sections/figures/figure_builders.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,6 +12,7 @@
 #include "render/figures/curves/best_line.hpp"
 #include "render/figures/curves/error_curve.hpp"
 #include "reports/sections/figures/line_findings.hpp"
+#include "reports/sections/figures/line_judgement.hpp"
 #include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/wording.hpp"
 
@@ -23,6 +26,27 @@ constexpr double kOffTheRoom = 10.0;
 constexpr std::size_t kFewestValues = 4;
 
 using Estimate = std::optional<MeanEstimate> SettingSummary::*;
+
+/// The index of a line's least value; its size if none is known.
+std::size_t index_of_least(const ErrorLine& line) {
+  std::size_t least = line.mean.size();
+  for (std::size_t i = 0; i < line.mean.size(); ++i)
+    if (std::isfinite(line.mean[i]) &&
+        (least == line.mean.size() || line.mean[i] < line.mean[least]))
+      least = i;
+  return least;
+}
+
+/// The least errors of lines.
+/// @param methods  Of the lines.
+std::vector<PointOfSetting> least_points(const std::vector<Method>& methods,
+                                         std::vector<ErrorLine>& lines) {
+  std::vector<PointOfSetting> points;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (const std::size_t least = index_of_least(lines[i]); least < lines[i].x.size())
+      points.push_back({&lines[i], least, {methods[i], lines[i].x[least]}});
+  return points;
+}
 
 ParameterLine parameter_line(const Experiment& experiment,
                              const std::vector<SettingSummary>& values, Estimate estimate,
@@ -48,9 +72,12 @@ ParameterLine parameter_line(const Experiment& experiment,
 }
 
 /// Which method is best, and at which value; where several are, how much they depend on it.
-std::string finding_of(const ParameterGroup& group, bool of_mpe) {
+/// @param methods  Of the group's lines.
+std::string finding_of(FigureSource& source, const SensorStudy& sensor, const ParameterGroup& group,
+                       const std::vector<Method>& methods, bool of_mpe) {
   std::vector<ErrorLine> lines;
   for (const ParameterLine& method : group.methods) lines.push_back(method.line);
+  judge(least_points(methods, lines), of_mpe ? &Score::mpe_m : &Score::moe_percent, sensor, source);
   const LineQuantity quantity = of_mpe ? LineQuantity{} : LineQuantity{"MOE", "%"};
   const std::string best = best_of_all(lines, quantity, {group.symbol});
   return best.empty() ? dependence_finding(lines, quantity, group.symbol, of_mpe) : best;
@@ -71,7 +98,7 @@ std::string above_words(const ParameterGroup& group, double ceiling_m) {
 
 /// The figure of all methods with that parameter: methods of different ones err on different
 /// scales. Empty if no method has enough values of it for a curve.
-std::optional<Figure> parameter_figure(const FigureSource& source, const SensorStudy& sensor,
+std::optional<Figure> parameter_figure(FigureSource& source, const SensorStudy& sensor,
                                        const std::vector<SettingSummary>& all,
                                        const ParameterInfo& parameter, bool of_mpe) {
   ParameterGroup group{
@@ -90,6 +117,7 @@ std::optional<Figure> parameter_figure(const FigureSource& source, const SensorS
     spec.y_label = "MOE [%]";
     spec.quantity = "mean orientation error";
   }
+  std::vector<Method> methods;
   for (const MethodGrid& grid : sensor.methods) {
     if (!info(grid.method).parameter || info(grid.method).parameter->symbol != parameter.symbol)
       continue;
@@ -99,6 +127,7 @@ std::optional<Figure> parameter_figure(const FigureSource& source, const SensorS
         values.push_back(summary);
     if (values.size() < kFewestValues || best_of(values) == nullptr) continue;
     const Experiment& experiment = source.study().experiment;
+    methods.push_back(grid.method);
     group.methods.push_back(
         of_mpe ? parameter_line(experiment, values, &SettingSummary::mpe_m, &PublishedValue::mpe_m)
                : parameter_line(experiment, values, &SettingSummary::moe_percent,
@@ -106,7 +135,8 @@ std::optional<Figure> parameter_figure(const FigureSource& source, const SensorS
     for (const SettingSummary& value : values) spec.record_ids.push_back(source_of(value));
   }
   if (group.methods.empty()) return std::nullopt;
-  if (const std::string finding = finding_of(group, of_mpe); !finding.empty())
+  if (const std::string finding = finding_of(source, sensor, group, methods, of_mpe);
+      !finding.empty())
     spec.title = fmt::format("{}: {}", title_of(sensor.sensor.sensor), finding);
   if (of_mpe) {
     spec.ceiling = kOffTheRoom * source.study().experiment.world.side_m;

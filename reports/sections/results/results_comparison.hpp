@@ -4,41 +4,23 @@
 #include <string>
 #include <vector>
 
-#include "core/statistics/friedman.hpp"
-#include "core/statistics/paired_change.hpp"
+#include "reports/sections/results/paired_methods.hpp"
 #include "reports/sections/results/results_view.hpp"
 
 namespace mapproof {
 
-/// A method of a block compared with the best one.
-struct ComparedMethod {
-  std::size_t method = 0;  ///< Index into ResultsStudy::methods.
-  double mean = 0.0;       ///< Over the runs that all compared methods have.
-  /// From the best method, over groups; none of the best, and of too few groups for tests.
-  std::optional<PairedChange> change;
-  double corrected_p = 1.0;  ///< Of the change, by Holm over the methods.
-};
-
-/// The methods of a block by one quantity under one condition, on the runs that all of them have.
-struct MethodComparison {
+/// The methods of a block by one quantity under one condition. Their numbers are indices into
+/// ResultsStudy::methods.
+struct MethodComparison : PairedMethods {
   const ResultsBlock* block = nullptr;
   const Quantity* quantity = nullptr;
-  std::string id;  ///< Of figures and tables: the block's, and of a text its level.
-  Condition at;
-  std::string level;  ///< "noise 0.4 m"; empty: the block has one.
+  std::string id = {};  ///< Of figures and tables: the block's, and of a text its level.
+  Condition at = {};
+  std::string level = {};  ///< "noise 0.4 m"; empty: the block has one.
   /// Levels after that one, at which no two methods could be compared.
-  std::vector<std::string> passed_over;
-  std::vector<ComparedMethod> methods;  ///< The best first; two or more.
-  /// Labels of methods that lack a group, or half of the runs.
-  std::vector<std::string> left_out;
-  int runs = 0;  ///< That all compared methods have.
-  int groups = 0;
-  bool has_all_runs = true;  ///< None of the methods has another run: means are the tables'.
-  std::optional<FriedmanTest> ranks;  ///< In the order of `methods`; with groups for tests.
+  std::vector<std::string> passed_over = {};
+  std::vector<std::string> left_out = {};  ///< Labels of those not compared.
 };
-
-/// Whether it has as many groups of runs as an interval needs: of fewer nothing is tested.
-bool has_groups_for_tests(const MethodComparison& comparison);
 
 /// Compares the methods of a block at one of its conditions; empty where no two methods have a run
 /// in common.
@@ -46,17 +28,13 @@ std::optional<MethodComparison> compare_at(const ResultsView& view, const Result
                                            const Quantity& quantity, const Condition& at);
 
 /// Compares methods at the last level of each block at which two of them can be, or where levels
-/// are texts at each, by each quantity that has a direction. Pairs are of the runs that all
-/// compared methods have; a group counts by the mean of its pairs. Where runs are not repeats of
-/// each other nothing is compared.
+/// are texts at each, by each quantity that has a direction. Where runs are not repeats of each
+/// other nothing is compared.
 std::vector<MethodComparison> compare_methods(const ResultsView& view);
 
 /// Why a block's methods are not tested by a quantity: a clause; empty if they can be.
 std::string why_not_compared(const ResultsView& view, const ResultsBlock& block,
                              const Quantity& quantity);
-
-/// Whether the corrected paired test tells a method from the best one.
-bool is_significant(const ComparedMethod& method);
 
 /// "Indoors, noise 0.4 m (no two methods have values in the same runs at noise 0.8 m)".
 std::string where_of(const MethodComparison& comparison);
@@ -67,15 +45,7 @@ std::string sentence_of(const MethodComparison& comparison, const ResultsView& v
 /// "not compared, since values are missing: EKF"; empty if no method is left out.
 std::string left_out_words(const MethodComparison& comparison);
 
-/// Whether there is a diagram of its mean ranks.
-bool has_rank_diagram(const MethodComparison& comparison);
-
-/// The least difference of mean ranks that tells two methods apart, Nemenyi's at 0.05.
-/// @throws InvalidInput without ranks.
-double critical_difference(const MethodComparison& comparison);
-
-/// Which methods one of paired test and diagram of mean ranks tells from the best one and the other
-/// does not, and why that can be; empty where they agree.
+/// See paired_methods.hpp.
 std::string disagreement_of(const MethodComparison& comparison, const ResultsView& view);
 
 /// As many comparisons open a report with a sentence each.

@@ -241,9 +241,7 @@ void judge_by_pairs(const ResultsView& view, const ResultsBlock& block, const Qu
       const auto at = std::ranges::find(curve->x, std::get<double>(block.levels[i].value));
       if (at == curve->x.end()) continue;
       curve->paired[static_cast<std::size_t>(at - curve->x.begin())] =
-          &method == &comparison->methods.front() ? PairedWithBest::kBest
-          : is_significant(method)                ? PairedWithBest::kWorse
-                                                  : PairedWithBest::kAlike;
+          judgement_of(*comparison, method.method);
     }
   }
 }

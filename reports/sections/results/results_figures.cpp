@@ -13,7 +13,7 @@
 #include "core/base/text/slug.hpp"
 #include "render/figures/diagrams/heat_map.hpp"
 #include "render/figures/diagrams/method_comparison.hpp"
-#include "reports/sections/method_ranks.hpp"
+#include "reports/sections/results/paired_methods.hpp"
 #include "reports/sections/results/results_conventions.hpp"
 #include "reports/sections/results/results_curves.hpp"
 #include "reports/sections/results/results_data_sets.hpp"

@@ -14,6 +14,7 @@
 #include "core/results/values_by_run.hpp"
 #include "core/statistics/intervals.hpp"
 #include "reports/sections/method_summary.hpp"
+#include "reports/sections/results/paired_methods.hpp"
 
 namespace mapproof {
 
@@ -71,9 +72,6 @@ struct RunCounts {
   std::size_t runs = 0;
   std::size_t groups = 0;
 };
-
-/// An interval of a mean over fewer groups of runs is a guess.
-inline constexpr std::size_t kFewestGroups = 5;
 
 /// A study's results as figures and tables show them.
 class ResultsView {
