@@ -592,25 +592,6 @@ TEST(ErrorLinesFigure, CountsTheIntervalsThatEndBelowALogarithmicFrame) {
   EXPECT_TRUE(error_lines_figure(spec).notes.empty());
 }
 
-TEST(ErrorLinesFigure, HasAnAxisForEachPanelWhereOneWouldLookEmptyOnThatOfAll) {
-  ErrorLinesSpec spec;
-  spec.id = "lines";
-  spec.panels.resize(3);
-  spec.panels[0].lines = {three_points("A", {0.0, 0.02, 0.01}, 0.0)};
-  spec.panels[1].lines = {three_points("A", {0.0, 1.0, 3.0}, 0.0)};
-  spec.panels[2].lines = {three_points("A", {0.0, 0.0, 0.0}, 0.0)};
-  const Figure apart = error_lines_figure(spec);
-  EXPECT_FALSE(apart.shared_y);
-  EXPECT_LT(apart.panels[0].y.limits->high, 0.03);
-  EXPECT_GT(apart.panels[1].y.limits->high, 3.0);
-  EXPECT_EQ(apart.panels[2].y.limits, apart.panels[1].y.limits) << "0 alone has that of all";
-  EXPECT_EQ(apart.panels[0].y.label, apart.panels[1].y.label);
-  spec.panels[0].lines = {three_points("A", {0.0, 0.9, 0.1}, 0.0)};
-  const Figure shared = error_lines_figure(spec);
-  EXPECT_TRUE(shared.shared_y);
-  EXPECT_EQ(shared.panels[0].y.limits, shared.panels[1].y.limits);
-}
-
 TEST(ErrorByParameterFigure, HasAPanelForEachKindOfParameter) {
   const Figure figure = error_by_parameter_figure(sample_parameters());
   ASSERT_EQ(figure.panels.size(), 3u);

@@ -179,20 +179,6 @@ TEST(FigureRules, FindFramesThatTakeLittleOfThePage) {
   EXPECT_NE(rules_broken_by({named, others}).find("the panels take"), std::string::npos);
 }
 
-TEST(FigureRules, FindAPanelThatLooksEmptyOnTheAxisThatItShares) {
-  const auto broken = [](double greatest, bool is_shared) {
-    Figure figure = plot_of({{.title = "one", .layers = {straight("a", 0.0, 10.0)}},
-                             {.title = "two", .layers = {straight("a", 0.0, greatest)}}});
-    figure.shared_y = is_shared;
-    return joined(broken_rules(figure, report_theme()));
-  };
-  const char* const rule = "panel 2 reaches ";
-  EXPECT_NE(broken(1.0, true).find(rule), std::string::npos);
-  EXPECT_EQ(broken(1.0, false).find(rule), std::string::npos);
-  EXPECT_EQ(broken(3.0, true).find(rule), std::string::npos);
-  EXPECT_EQ(broken(0.0, true).find(rule), std::string::npos) << "no other axis shows more";
-}
-
 TEST(FigureRules, FindABarThatIsCutByTheFrame) {
   Panel panel{
       .title = "",

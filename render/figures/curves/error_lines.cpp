@@ -5,7 +5,6 @@
 #include <cmath>
 #include <iterator>
 #include <set>
-#include <span>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -82,60 +81,21 @@ std::vector<double> within_ceiling(const ErrorLine& line, std::vector<double> en
   return ends;
 }
 
-/// What an axis of panels has to show.
-struct AxisValues {
+ErrorAxis axis_of(const ErrorLinesSpec& spec, double ceiling) {
   std::vector<double> means, intervals, points;
-
-  Span span() const {
-    Span all;
-    for (const std::vector<double>* values : {&means, &intervals, &points}) all.see(*values);
-    return all;
-  }
-};
-
-AxisValues values_of(std::span<const ErrorPanel> panels, double ceiling) {
-  AxisValues values;
-  for (const ErrorPanel& panel : panels) {
+  for (const ErrorPanel& panel : spec.panels) {
     for (const ErrorLine& line : panel.lines) {
-      append(values.means, line.mean);
-      append(values.intervals, within_ceiling(line, line.low, ceiling));
-      append(values.intervals, within_ceiling(line, line.high, ceiling));
+      append(means, line.mean);
+      append(intervals, within_ceiling(line, line.low, ceiling));
+      append(intervals, within_ceiling(line, line.high, ceiling));
     }
-    for (const ErrorPoint& point : panel.points) values.points.push_back(point.y);
+    for (const ErrorPoint& point : panel.points) points.push_back(point.y);
   }
   const auto beyond = [&](double value) { return value > ceiling; };
-  std::erase_if(values.means, beyond);
-  std::erase_if(values.points, beyond);
-  std::ranges::replace_if(values.intervals, beyond, ceiling);
-  return values;
-}
-
-ErrorAxis axis_of(const AxisValues& values, double log_from) {
-  return error_axis(values.means, values.intervals, log_from, values.points);
-}
-
-/// Whether a panel has values that an axis can spread: not 0 alone.
-bool has_height(const AxisValues& values) {
-  const Span all = values.span();
-  return all.known() && (all.low != 0.0 || all.high != 0.0);
-}
-
-bool looks_empty(const AxisValues& values, const ErrorAxis& axis) {
-  return has_height(values) && reach_in(axis.limits, axis.scale, values.span().high) < kLeastReach;
-}
-
-/// One per panel: all the same, unless a panel would look empty on the axis of all.
-std::vector<ErrorAxis> axes_of(const ErrorLinesSpec& spec, double ceiling) {
-  const ErrorAxis of_all = axis_of(values_of(spec.panels, ceiling), spec.log_from);
-  std::vector<ErrorAxis> axes(spec.panels.size(), of_all);
-  std::vector<AxisValues> values;
-  for (const ErrorPanel& panel : spec.panels)
-    values.push_back(values_of(std::span(&panel, 1), ceiling));
-  if (std::ranges::none_of(values, [&](const auto& one) { return looks_empty(one, of_all); }))
-    return axes;
-  for (std::size_t i = 0; i < axes.size(); ++i)
-    if (has_height(values[i])) axes[i] = axis_of(values[i], spec.log_from);
-  return axes;
+  std::erase_if(means, beyond);
+  std::erase_if(points, beyond);
+  std::ranges::replace_if(intervals, beyond, ceiling);
+  return error_axis(means, intervals, spec.log_from, points);
 }
 
 /// Labels in the order of their first appearance, and the style of each.
@@ -168,13 +128,11 @@ void note_count(long long count, std::string_view what, std::string_view predica
 
 /// Notes how many means and points lie above the frame, how many points lie below it, and how many
 /// intervals end above or below it whose means do not lie above.
-void note_beyond(const ErrorLinesSpec& spec, const std::vector<ErrorAxis>& axes, Figure& figure) {
+void note_beyond(const ErrorLinesSpec& spec, const ErrorAxis& axis, Figure& figure) {
+  const auto is_above = [&](double value) { return value > axis.limits.high; };
+  const auto is_below = [&](double value) { return value < axis.limits.low; };
   long long values = 0, points_below = 0, above = 0, below = 0;
-  for (std::size_t p = 0; p < spec.panels.size(); ++p) {
-    const ErrorPanel& panel = spec.panels[p];
-    const Range& limits = axes[p].limits;
-    const auto is_above = [&](double value) { return value > limits.high; };
-    const auto is_below = [&](double value) { return value < limits.low; };
+  for (const ErrorPanel& panel : spec.panels) {
     for (const ErrorLine& line : panel.lines) {
       values += std::ranges::count_if(line.mean, is_above);
       for (std::size_t i = 0; i < line.high.size(); ++i) {
@@ -225,14 +183,9 @@ std::string words_of(const ErrorLine& line, double divergence) {
   return text + ".";
 }
 
-std::string scales_of(const std::vector<ErrorAxis>& axes) {
-  const auto logs = std::ranges::count(axes, Scale::kLog, &ErrorAxis::scale);
-  if (logs == 0) return "linear axis";
-  return logs == std::ssize(axes) ? "logarithmic axis" : "linear and logarithmic axes";
-}
-
-std::string alt_of(const ErrorLinesSpec& spec, const std::vector<ErrorAxis>& axes) {
-  std::string text = fmt::format("{}: {}, {}.", spec.y_label, spec.quantity, scales_of(axes));
+std::string alt_of(const ErrorLinesSpec& spec, const ErrorAxis& axis) {
+  std::string text = fmt::format("{}: {}, {} axis.", spec.y_label, spec.quantity,
+                                 axis.scale == Scale::kLog ? "logarithmic" : "linear");
   for (const ErrorPanel& panel : spec.panels) {
     text += fmt::format(" Over {}{}:", panel.x.label,
                         panel.title.empty() ? "" : " (" + panel.title + ")");
@@ -438,11 +391,6 @@ ErrorAxis error_axis(const std::vector<double>& means, const std::vector<double>
   return {Scale::kLinear, {low, high + 0.06 * (high - low)}};
 }
 
-double reach_in(const Range& limits, Scale scale, double greatest) {
-  return scale == Scale::kLog ? std::log(greatest / limits.low) / std::log(limits.high / limits.low)
-                              : (greatest - limits.low) / (limits.high - limits.low);
-}
-
 std::vector<double> ErrorAxis::raised(std::vector<double> values) const {
   if (scale == Scale::kLog)
     for (double& value : values)
@@ -459,17 +407,17 @@ double ErrorAxis::near_top() const {
 Figure error_lines_figure(const ErrorLinesSpec& spec) {
   require_consistent(spec);
   const double ceiling = ceiling_of(spec);
-  const std::vector<ErrorAxis> axes = axes_of(spec, ceiling);
+  const ErrorAxis axis = axis_of(spec, ceiling);
   Figure figure;
   figure.id = spec.id;
   figure.title = spec.title;
   figure.record_ids = spec.record_ids;
-  figure.alt = spec.alt.empty() ? alt_of(spec, axes) : spec.alt;
+  figure.alt = spec.alt.empty() ? alt_of(spec, axis) : spec.alt;
   figure.notes = spec.notes;
-  note_beyond(spec, axes, figure);
+  note_beyond(spec, axis, figure);
   note_diverged(count_diverged(spec), "at", "points", figure.notes);
-  for (std::size_t i = 0; i < spec.panels.size(); ++i)
-    figure.panels.push_back(Builder(spec, axes[i], ceiling).panel(i));
+  const Builder builder(spec, axis, ceiling);
+  for (std::size_t i = 0; i < spec.panels.size(); ++i) figure.panels.push_back(builder.panel(i));
   if (labels_of(spec).labels.empty())
     figure.notes.push_back({"There are no curves.", ThemeColour::kWarning});
   if (figure.panels.empty()) {
@@ -481,8 +429,7 @@ Figure error_lines_figure(const ErrorLinesSpec& spec) {
                                      spec.has_runs ? ", mean over runs" : "",
                                      interval_words(figure.panels), spec.remark)
                        : spec.caption;
-  const auto is_first = [&](const ErrorAxis& axis) { return axis == axes.front(); };
-  figure.shared_y = figure.panels.size() > 1 && std::ranges::all_of(axes, is_first);
+  figure.shared_y = figure.panels.size() > 1;
   require_valid(figure);
   return figure;
 }

@@ -76,7 +76,7 @@ struct ErrorLinesSpec {
   std::string title;
   std::string y_label = "MPE [m]";
   std::string quantity = "mean position error";  ///< In words, for caption and alt text.
-  std::vector<ErrorPanel> panels;                ///< Side by side.
+  std::vector<ErrorPanel> panels;                ///< Side by side on one y axis.
   std::string caption;   ///< Empty: one is made of `quantity`, `over`, the intervals and `remark`.
   std::string over;      ///< " over the number of anchors"; may be empty.
   bool has_runs = true;  ///< The lines are means over several runs, which the caption then says.
@@ -105,8 +105,7 @@ std::vector<std::size_t> free_series(const std::vector<std::size_t>& taken, std:
 /// free_series(), behind those of mapproof's methods if some line asks for one.
 std::vector<std::size_t> series_of(const std::vector<std::optional<std::size_t>>& asked);
 
-/// Lines with their 95 % intervals in panels that share the y axis, unless one of them would look
-/// empty on it (see kLeastReach): then each has its own. Intervals are bands, or bars
+/// Lines with their 95 % intervals in panels that share the y axis. Intervals are bands, or bars
 /// where more than three bands would lie on each other. The axis is logarithmic if the means span
 /// more than `log_from`, and then holds the upper ends of intervals as far as these take no more of
 /// it than the means do, and the lower ends down to a third of the least mean; notes count those
@@ -126,17 +125,7 @@ struct ErrorAxis {
 
   /// Where a mark for a value above the frame stands wholly inside it, above all others.
   double near_top() const;
-
-  bool operator==(const ErrorAxis&) const = default;
 };
-
-/// What is drawn in a panel reaches at least so much of a y axis that panels share. In the quick
-/// profiles of all studies the least reach was 0.27, but for two panels that looked empty: 0.02 and
-/// 0.15.
-inline constexpr double kLeastReach = 0.2;
-
-/// How far up an axis its greatest value is: 0 at the foot, 1 at the top.
-double reach_in(const Range& limits, Scale scale, double greatest);
 
 /// @param intervals  Both ends of the intervals; may be empty.
 /// @param points     Other values that the frame holds, as of single runs. One of 0 does not keep

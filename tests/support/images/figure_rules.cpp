@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "render/cairo/cairo_backend.hpp"
-#include "render/figures/curves/error_lines.hpp"
 #include "render/plot/axis_map.hpp"
 #include "render/plot/layers.hpp"
 #include "render/plot/layout.hpp"
@@ -105,7 +104,6 @@ class Rules {
       if (panel.bare || std::ranges::all_of(panel.layers, is_empty)) continue;
       check_labels(i);
       check_start(panel);
-      check_reach(i);
       check_cut_data(panel);
       check_styles(panel);
       check_colours(i);
@@ -219,37 +217,6 @@ class Rules {
     }
     if (std::isfinite(least) && least > kUppermost * panel.y.limits->high)
       add(fmt::format("an axis from 0 whose lines begin at {}", least));
-  }
-
-  /// Curves of a panel that stay at the foot of an axis which the panel shares look like none.
-  /// Curves that are 0 everywhere have no other axis.
-  void check_reach(std::size_t index) {
-    const Panel& panel = figure_.panels[index];
-    if (!figure_.shared_y || panel.equal_aspect) return;
-    bool has_curve = false, is_0 = true;
-    double greatest = -HUGE_VAL;
-    const auto see = [&](const std::vector<double>& values) {
-      for (const double y : values) {
-        if (!std::isfinite(y)) continue;
-        greatest = std::max(greatest, y);
-        is_0 = is_0 && y == 0.0;
-      }
-    };
-    for (const Layer& layer : panel.layers) {
-      if (const auto* line = std::get_if<Polyline>(&layer)) has_curve = true, see(line->y);
-      if (const auto* band = std::get_if<Band>(&layer)) see(band->low), see(band->high);
-      if (const auto* points = std::get_if<Scatter>(&layer)) see(points->y);
-    }
-    if (!has_curve || is_0) return;
-    Range shared = panel_limits(panel).y;
-    for (const Panel& other : figure_.panels) {
-      const Range limits = panel_limits(other).y;
-      shared = {std::min(shared.low, limits.low), std::max(shared.high, limits.high)};
-    }
-    const double reach = reach_in(shared, panel.y.scale, greatest);
-    if (reach < kLeastReach)
-      add(fmt::format("panel {} reaches {:.0f} % of the height that it shares", index + 1,
-                      100.0 * reach));
   }
 
   void check_styles(const Panel& panel) {

@@ -13,7 +13,6 @@ namespace mapproof::test {
 /// What a figure does against the rules of docs/figures.md in a theme, a line each; empty if it
 /// keeps them all: fewer than two labels on an axis, or three where they have room; labels of
 /// several forms, or one twice, on an axis; an axis from 0 whose lines lie in its uppermost part;
-/// a panel whose curves stay at the foot of an axis that it shares (kLeastReach);
 /// bars or points cut by the frame, or bands without a note; texts with a part left out; a title
 /// that counts what it does not name; two lines of one style or two colours that touch and are
 /// alike; frames that take too little of the page.
