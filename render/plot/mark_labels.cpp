@@ -74,11 +74,13 @@ struct Surroundings {
   Obstacles taken;
   std::vector<Box> texts = {};
 
-  /// Whether a label has room there: beside other texts that of a word space, too.
+  /// Whether a label has room there: beside another text on its line that of a word space, too.
   bool has_room(const Box& box, double word_space) const {
-    const Box spaced{box.x0 - word_space, box.y0, box.x1 + word_space, box.y1};
-    return frame.holds(box) && !taken.hit(box) &&
-           std::ranges::none_of(texts, [&](const Box& text) { return text.overlaps(spaced); });
+    const auto continues = [&](const Box& text) {
+      return std::abs(text.centre().y - box.centre().y) < word_space &&
+             text.x0 < box.x1 + word_space && box.x0 < text.x1 + word_space;
+    };
+    return frame.holds(box) && !taken.hit(box) && std::ranges::none_of(texts, continues);
   }
 };
 

@@ -471,8 +471,9 @@ TEST(ParetoFigure, NamesEverySettingInAColumnOfAJournalWithRoomBetweenNames) {
   for (std::size_t i = 0; i < names.size(); ++i)
     for (std::size_t j = i + 1; j < names.size(); ++j) {
       const double space = 0.29 * theme.tick_font_pt;
+      const bool are_on_a_line = std::abs(names[i].centre().y - names[j].centre().y) < space;
       const Box spaced{names[i].x0 - space, names[i].y0, names[i].x1 + space, names[i].y1};
-      EXPECT_FALSE(spaced.overlaps(names[j])) << i << " and " << j;
+      EXPECT_FALSE((are_on_a_line ? spaced : names[i]).overlaps(names[j])) << i << " and " << j;
     }
 }
 

@@ -229,9 +229,9 @@ TEST(ReportHtml, LinksANumberToTheTableThatHasIt) {
   Report report;
   report.sections = {{"errors", "Errors", {Table{"means", "Means", {}, {}, {}}}}};
   report.opening.numbers.items = {
-      {.label = "best", .value = "0.19 m", .detail = "", .section = "errors", .table = "means"}};
+      {.label = "best", .value = "7", .detail = "", .section = "errors", .table = "means"}};
   const std::string page = report_html(report, load_templates(), {});
-  EXPECT_NE(page.find("<a href=\"#table-means\"\n      aria-label=\"0.19 m best\">0.19 m</a>"),
+  EXPECT_NE(page.find("<a href=\"#table-means\"\n      aria-label=\"7 best\">7</a>"),
             std::string::npos);
   EXPECT_NE(page.find("id=\"table-means\""), std::string::npos);
   report.opening.numbers.items[0].table = "elsewhere";
