@@ -97,7 +97,7 @@ std::optional<LabelBox> find_free_box(Point at, Point size, const Surroundings& 
       // 0, -1, 1, -2, 2, …: from the right outward to both sides.
       const int step = turn % 2 == 0 ? turn / 2 : -(turn + 1) / 2;
       const Box box = beside(at, radius, step * 2.0 * std::numbers::pi / kDirections, size);
-      if (!around.has_room(box, 0.3 * theme.tick_font_pt)) continue;
+      if (!around.has_room(box, 0.12 * theme.tick_font_pt)) continue;
       if (ring == 0) return LabelBox{box, false};
       const auto crossed = leader_cost(box, at, around.taken, around.texts);
       if (!crossed || ring + 1.5 * *crossed >= best_cost) continue;
