@@ -90,18 +90,19 @@ test("small figures of the first screen are at least 200 px wide", async () => {
   await close();
 });
 
-test("long sentences take the room of the small figures, which come back with it", async () => {
+test("long sentences take the room of the small figures beside the figure, which come back with it", async () => {
   const { page, close } = await open({ viewport: { width: 1280, height: 800 } });
   await openingPlaced(page);
-  // The sentences get longer by twice the height of the window, or as short as they were.
+  // The sentences get longer by twice the height of the window, or are not there.
   const isShownWith = async (isLong) => {
     await page.evaluate((long) => {
       document.querySelector(".opening .finding").style.paddingBottom = long ? "1600px" : "";
+      for (const other of document.querySelectorAll(".beside > :not(.thumbnails)")) other.hidden = !long;
       document.querySelector(".thumbnails").style.removeProperty("--columns");
       addOpeningImages();
     }, isLong);
     await openingPlaced(page);
-    return page.locator(".thumbnails").isVisible();
+    return page.locator(".beside .thumbnails").isVisible();
   };
   assert.equal(await isShownWith(true), false);
   assert.equal(await isShownWith(false), true);
@@ -113,6 +114,9 @@ test("where sentences are long and the figure is low, the small figures stand un
   await openingPlaced(page);
   const placed = (more_px, figure_px) => page.evaluate(([longer, most]) => {
     document.querySelector(".opening .finding").style.paddingBottom = `${longer}px`;
+    for (const other of document.querySelectorAll(".beside > :not(.thumbnails)")) {
+      other.hidden = longer === 0;
+    }
     document.querySelector(".main-figure").style.setProperty("--most", `${most}px`);
     placeThumbnails();
     const figure = document.querySelector(".main-figure"), list = document.querySelector(".thumbnails");
