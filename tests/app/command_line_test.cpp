@@ -100,7 +100,9 @@ TEST(CommandLine, NoOptionAndNoArgumentTakesAnEmptyValue) {
       words.emplace_back("");
       const Outcome outcome = mapproof(words);
       EXPECT_EQ(outcome.exit_code, 2) << command << " " << valued.name;
-      EXPECT_EQ(outcome.error, refusal_of_empty(command, valued.name));
+      // A word behind an option whose value may be left out is an argument.
+      const std::string named = valued.name == "--ellipses" ? "OBSERVATIONS" : valued.name;
+      EXPECT_EQ(outcome.error, refusal_of_empty(command, named));
       EXPECT_TRUE(outcome.out.empty()) << outcome.out;
     }
   for (const char* known :
