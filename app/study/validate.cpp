@@ -93,7 +93,7 @@ void check_latex(const std::string& bytes, const std::string& source) {
       throw IoError(source, "is truncated: \\end{figure} is missing");
     return;
   }
-  for (const char* part : {"\\toprule", "\\bottomrule"})
+  for (const char* part : {"\\toprule", "\\bottomrule", "\\end{table}"})
     if (bytes.find(part) == std::string::npos)
       throw IoError(source, fmt::format("is not a table of mapproof: {} is missing", part));
 }
