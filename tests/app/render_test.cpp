@@ -195,7 +195,10 @@ TEST_F(RenderOfAMap, AListTakesNoOptionsOfDrawing) {
 }
 
 TEST_F(RenderOfAMap, SaysWhichNamesFindNoRoom) {
-  const Outcome crowded = render({map_, "--figure", "map", "--theme", "paper", "--width", "2",
+  const std::string large = folder_.file(
+      "style.json",
+      R"({"schema": {"name": "mapproof.style", "version": 1}, "theme": "paper", "font_pt": 16})");
+  const Outcome crowded = render({map_, "--figure", "map", "--style", large, "--width", "2",
                                   "--height", "1", "--landmarks", "all", "--as", "svg"});
   EXPECT_EQ(crowded.exit_code, 0) << crowded.error;
   EXPECT_NE(crowded.error.find("map: no room for the names of "), std::string::npos)

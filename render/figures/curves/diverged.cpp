@@ -8,7 +8,6 @@
 
 #include "core/base/text/error_text.hpp"
 #include "core/base/text/words.hpp"
-#include "render/figures/curves/error_lines.hpp"
 #include "render/plot/axis_map.hpp"
 
 namespace mapproof {
@@ -48,6 +47,12 @@ void note_diverged(const std::vector<DivergedCount>& counts, std::string_view pr
                      ThemeColour::kMuted});
 }
 
+double near_end(Scale scale, const Range& limits) {
+  constexpr double kShare = 0.97;
+  const auto& [low, high] = limits;
+  return scale == Scale::kLog ? low * std::pow(high / low, kShare) : std::lerp(low, high, kShare);
+}
+
 DotAxis dot_axis(const std::vector<double>& values, Scale scale, double divergence) {
   DotAxis axis{.ceiling = axis_ceiling(values, divergence)};
   std::vector<double> shown = without_diverged(values, divergence);
@@ -56,7 +61,7 @@ DotAxis dot_axis(const std::vector<double>& values, Scale scale, double divergen
   panel.x.scale = scale;
   panel.layers.emplace_back(Scatter{.x = shown, .y = std::vector<double>(shown.size())});
   axis.limits = panel_limits(panel).x;
-  axis.end = ErrorAxis{scale, *axis.limits}.near_top();
+  axis.end = near_end(scale, *axis.limits);
   return axis;
 }
 

@@ -20,10 +20,10 @@ namespace mapproof {
 /// @param great_errors  Whether such values are of maps that diverged, and no distances.
 double divergence_in(std::string_view unit, bool great_errors);
 
-/// Above which values have no place on their axis: the divergence, unless all of them are above it.
+/// Above which values are not on their axis: the divergence, unless all of them are above it.
 double axis_ceiling(std::span<const double> values, double divergence);
 
-/// The values that have a place on their axis.
+/// The values that are on their axis.
 std::vector<double> without_diverged(std::vector<double> values, double divergence);
 
 /// How many of the values under one label are of maps that diverged.
@@ -41,6 +41,9 @@ struct DivergedCount {
 /// @param of           What are counted, more than one.
 void note_diverged(const std::vector<DivergedCount>& counts, std::string_view preposition,
                    std::string_view of, std::vector<Note>& notes);
+
+/// Where triangles stand for what lies above an axis: on it, near its upper end.
+double near_end(Scale scale, const Range& limits);
 
 /// An axis of dots, some of which may be of maps that diverged.
 struct DotAxis {

@@ -398,11 +398,7 @@ std::vector<double> ErrorAxis::raised(std::vector<double> values) const {
   return values;
 }
 
-double ErrorAxis::near_top() const {
-  constexpr double kShare = 0.97;
-  const auto& [low, high] = limits;
-  return scale == Scale::kLog ? low * std::pow(high / low, kShare) : std::lerp(low, high, kShare);
-}
+double ErrorAxis::near_top() const { return near_end(scale, limits); }
 
 Figure error_lines_figure(const ErrorLinesSpec& spec) {
   require_consistent(spec);
