@@ -149,7 +149,11 @@ void add_trends(std::vector<ValueCase>& cases) {
                                     std::string("map-") + (method[0] == 'l' ? "lpca" : "isomap"),
                                     verdict, {"landmark L", "mm", "MPE "}, change));
       cases.push_back(changed_study(fmt::format("{} errors x {}, the curve", method, by),
-                                    "mpe-curve", verdict, {"MPE ", subject}, change));
+                                    "mpe-curve", verdict,
+                                    {"MPE ", std::string("visibility, ") +
+                                                 (method[0] == 'l' ? "LPCA" : "ISOMAP, K = 6") +
+                                                 ", 200 steps"},
+                                    change));
     }
 }
 
