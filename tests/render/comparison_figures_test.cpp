@@ -5,6 +5,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/text/error_text.hpp"
+#include "render/figures/curves/error_lines.hpp"
 #include "render/figures/maps/pair_distances.hpp"
 #include "render/plot/layout.hpp"
 #include "tests/support/samples/drawn_panels.hpp"
@@ -87,6 +88,15 @@ TEST(CriticalDifferenceFigure, JoinsMethodsThatAreCloserThanTheCriticalDifferenc
   EXPECT_EQ(bars.x0.size(), 3u);  // 1-2, 2-3, 3-4.
   EXPECT_TRUE(contains(figure.alt, "No difference between LPCA and SMACOF.")) << figure.alt;
   EXPECT_TRUE(contains(figure.caption, "Friedman test: p < 0.001"));
+}
+
+TEST(CriticalDifferenceFigure, HasNoColourOfAMethod) {
+  const Panel panel = critical_difference_figure(sample_ranks(10)).panels[0];
+  for (std::size_t series = 0; series < 2 * kMethodStyles; ++series) {
+    const ThemeColour of_method = series_style(series).colour;
+    for (const Segments& lines : layers_of<Segments>(panel)) EXPECT_NE(lines.colour, of_method);
+    for (const Scatter& dots : layers_of<Scatter>(panel)) EXPECT_NE(dots.colour, of_method);
+  }
 }
 
 TEST(CriticalDifferenceFigure, SaysWhenTheFriedmanTestFindsNothing) {

@@ -277,7 +277,7 @@ class Diagram {
   std::vector<double> below_first_;  ///< From the first row to the middle of each label, in rows.
   double rows_ = 0.0;                ///< What the side with more of them takes.
   Segments lines_{.colour = ThemeColour::kText, .width = 0.6};
-  Segments bars_{.colour = ThemeColour::kSeries2, .width = 3.0};
+  Segments bars_{.colour = ThemeColour::kMuted, .width = 3.0};  // Not that of a method.
   Segments difference_{.colour = ThemeColour::kText};
   Segments open_difference_{.colour = ThemeColour::kText, .arrow = true};
   Scatter dots_{.colour = ThemeColour::kText, .size = 0.7};
