@@ -136,60 +136,91 @@ TEST(CriticalDifferenceFigure, RefusesRanksThatAreNone) {
 }
 
 TEST(ScatterEllipse, OfARectanglesCornersHasItsAxes) {
-  std::vector<Points> runs(4, Points::Zero(1, 2));
-  runs[0] << 3.0, 1.0;
-  runs[1] << -3.0, 1.0;
-  runs[2] << 3.0, -1.0;
-  runs[3] << -3.0, -1.0;
+  std::vector<Points> runs;
+  for (int times = 0; times < 3; ++times)
+    for (const double x : {3.0, -3.0})
+      for (const double y : {1.0, -1.0}) runs.emplace_back(Points(1, 2)) << x, y;
   const ScatterEllipse ellipse = scatter_ellipse(runs, 0);
-  EXPECT_EQ(ellipse.runs, 4);
-  EXPECT_NEAR(ellipse.a_m, std::sqrt(-2.0 * std::log(0.05)) * std::sqrt(36.0 / 3.0), 1e-12);
-  EXPECT_NEAR(ellipse.b_m, std::sqrt(-2.0 * std::log(0.05)) * std::sqrt(4.0 / 3.0), 1e-12);
+  EXPECT_EQ(ellipse.runs, 12);
+  EXPECT_NEAR(ellipse.a_m, std::sqrt(-2.0 * std::log(0.05)) * std::sqrt(108.0 / 11.0), 1e-12);
+  EXPECT_NEAR(ellipse.b_m, std::sqrt(-2.0 * std::log(0.05)) * std::sqrt(12.0 / 11.0), 1e-12);
   EXPECT_NEAR(ellipse.rotation_rad, 0.0, 1e-12);
 }
 
 TEST(ScatterEllipse, TurnsWithItsPoints) {
-  std::vector<Points> runs(3, Points::Zero(1, 2));
+  std::vector<Points> runs(kFewestForEllipse, Points::Zero(1, 2));
   runs[0] << 1.0, 1.0;
-  runs[1] << 0.0, 0.0;
-  runs[2] << -1.0, -1.0;
+  runs[1] << -1.0, -1.0;
   EXPECT_NEAR(scatter_ellipse(runs, 0).rotation_rad, std::acos(-1.0) / 4.0, 1e-12);
   EXPECT_NEAR(scatter_ellipse(runs, 0).b_m, 0.0, 1e-7);
-  runs.resize(2);
+  runs.pop_back();
   EXPECT_TRUE(std::isnan(scatter_ellipse(runs, 0).a_m));
 }
 
 TEST(EllipseMapFigure, JoinsTheGroundTruthToTheMean) {
-  const EllipseMapSpec spec = sample_runs(20, 5);
+  const EllipseMapSpec spec = sample_runs(20, kFewestForEllipse);
   const Figure figure = ellipse_map_figure(spec);
   const auto bias = labelled<Segments>(figure.panels[0], "error of the mean").value();
   ASSERT_EQ(bias.x0.size(), 20u);
   EXPECT_EQ(bias.x0[3], spec.ground_truth_m(3, 0));
   EXPECT_NEAR(bias.x1[3], scatter_ellipse(spec.estimates_m, 3).mean_m.x(), 1e-15);
   EXPECT_EQ(labelled<Ellipses>(figure.panels[0], "95 % of estimates").value().x.size(), 20u);
-  EXPECT_TRUE(contains(figure.caption, "20 landmarks over 5 runs"));
+  EXPECT_TRUE(contains(figure.caption, "20 landmarks over 10 runs"));
+  EXPECT_FALSE(labelled<Scatter>(figure.panels[0], "single estimate"));
+}
+
+TEST(EllipseMapFigure, OfFewRunsShowsEachEstimateAndNoEllipse) {
+  EllipseMapSpec spec = sample_runs(20, 5);
+  spec.estimates_m[2].row(7).setConstant(NAN);
+  const Figure figure = ellipse_map_figure(spec);
+  const Panel& panel = figure.panels[0];
+  EXPECT_TRUE(layers_of<Ellipses>(panel).empty());
+  const auto estimates = labelled<Scatter>(panel, "single estimate").value();
+  EXPECT_EQ(estimates.x.size(), 99U);
+  EXPECT_EQ(estimates.x[1], spec.estimates_m[1](0, 0));
+  const auto spokes = layers_of<Segments>(panel).front();
+  EXPECT_EQ(spokes.x1, estimates.x);
+  EXPECT_NEAR(spokes.x0[1], scatter_ellipse(spec.estimates_m, 0).mean_m.x(), 1e-15);
+  EXPECT_TRUE(contains(figure.caption, "fewer than 10 are too few for an ellipse"));
+  EXPECT_TRUE(contains(scatter_finding(spec), " m from their mean")) << scatter_finding(spec);
+  // The frame holds an estimate beside the room; one far away is counted.
+  const double before = panel.x.limits->high;
+  spec.estimates_m[0](3, 0) = before + 0.2;
+  const Figure beside = ellipse_map_figure(spec);
+  EXPECT_GE(beside.panels[0].x.limits->high, before + 0.2);
+  EXPECT_FALSE(notes_contain(beside, "outside the image"));
+  spec.estimates_m[0](3, 0) = 1e3;
+  EXPECT_TRUE(notes_contain(ellipse_map_figure(spec), "1 single estimate outside the image."));
+}
+
+/// Positions whose sums are exact.
+Points rounded(const Points& positions_m) {
+  constexpr double kParts = 64.0;
+  return (kParts * positions_m.array()).round() / kParts;
 }
 
 TEST(EllipseMapFigure, HasAFindingOfErrorAndScatter) {
-  EllipseMapSpec spec = sample_runs(20, 4);
+  EllipseMapSpec spec = sample_runs(20, kFewestForEllipse);
+  spec.ground_truth_m = rounded(spec.ground_truth_m);
   for (Points& run : spec.estimates_m) {
     run = spec.ground_truth_m;
     run.col(0).array() += 0.5;
   }
   EXPECT_EQ(scatter_finding(spec),
             "mean positions 0.500 m off, 95\u00A0% ellipses of 0 m (half the long axis)");
-  EXPECT_EQ(scatter_finding(sample_runs(20, 2)), "");
+  spec.estimates_m.pop_back();
+  EXPECT_EQ(scatter_finding(spec), "mean positions 0.500 m off, estimates 0 m from their mean");
+  EXPECT_EQ(scatter_finding(sample_runs(20, 1)), "");
 }
 
 TEST(EllipseMapFigure, NamesALandmarkEvenIfAllRunsAgree) {
-  EllipseMapSpec spec = sample_runs(20, 4);
-  for (Points& run : spec.estimates_m) run = spec.estimates_m.front();
+  EllipseMapSpec spec = sample_runs(20, kFewestForEllipse);
+  for (Points& run : spec.estimates_m) run = rounded(spec.estimates_m.front());
   const Figure figure = ellipse_map_figure(spec);
   EXPECT_TRUE(contains(figure.alt, "0 m at most, of " + spec.names.front() + ".")) << figure.alt;
 }
 
 TEST(EllipseMapFigure, SaysWhatItCannotShow) {
-  EXPECT_TRUE(notes_contain(ellipse_map_figure(sample_runs(20, 2)), "Fewer than three runs"));
   EXPECT_TRUE(notes_contain(ellipse_map_figure(sample_runs(20, 0)), "No run gave a landmark"));
   EllipseMapSpec spec = sample_runs(20, 3);
   spec.estimates_m[1].conservativeResize(19, 2);
@@ -311,7 +342,8 @@ TEST(EllipseMapFigure, HoldsItsEllipsesUnlessTheyAreFarTooLarge) {
   spec.ground_truth_m << 0, 0, 10, 10;
   const auto scattered_by = [&](double reach) {
     spec.estimates_m.clear();
-    for (const double off : {-reach, 0.0, reach}) {
+    for (int i = 0; i < 12; ++i) {
+      const double off = reach * (i % 3 - 1);
       Points run = spec.ground_truth_m;
       run(1, 0) += off;
       spec.estimates_m.push_back(run);
@@ -319,12 +351,13 @@ TEST(EllipseMapFigure, HoldsItsEllipsesUnlessTheyAreFarTooLarge) {
     return *ellipse_map_figure(spec).panels[0].x.limits;
   };
   const double before = scattered_by(0.01).high;
-  // Half the axis of the ellipse is 2.45 times the scatter of 2 m.
-  EXPECT_NEAR(scattered_by(2.0).high, 10.0 + 2.0 * std::sqrt(-2.0 * std::log(0.05)), 1e-9);
+  // Half the axis of the ellipse is 2.45 times the standard deviation.
+  EXPECT_NEAR(scattered_by(2.0).high,
+              10.0 + 2.0 * std::sqrt(8.0 / 11.0) * std::sqrt(-2.0 * std::log(0.05)), 1e-9);
   EXPECT_FALSE(notes_contain(ellipse_map_figure(spec), "beyond the frame"));
   EXPECT_LT(scattered_by(1000.0).high, 2.0 * before);
   EXPECT_TRUE(notes_contain(ellipse_map_figure(spec),
-                            "1 ellipse beyond the frame; half the longest axis, of b, is 2448 m."))
+                            "1 ellipse beyond the frame; half the longest axis, of b, is 2087 m."))
       << ellipse_map_figure(spec).notes.size();
 }
 

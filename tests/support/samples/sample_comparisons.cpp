@@ -53,10 +53,11 @@ void add_ranks(std::vector<Figure>& figures) {
 }
 
 void add_runs(std::vector<Figure>& figures) {
-  figures.push_back(ellipse_map_figure(with_id(sample_runs(50, 5), "ellipses-usual")));
+  figures.push_back(ellipse_map_figure(with_id(sample_runs(50, 12), "ellipses-usual")));
+  figures.push_back(ellipse_map_figure(with_id(sample_runs(50, 5), "ellipses-few-runs")));
   figures.push_back(ellipse_map_figure(with_id(sample_runs(50, 2), "ellipses-two-runs")));
   figures.push_back(ellipse_map_figure(with_id(sample_runs(0, 5), "ellipses-none")));
-  EllipseMapSpec far = with_id(sample_runs(20, 5), "ellipses-far-off");
+  EllipseMapSpec far = with_id(sample_runs(20, 12), "ellipses-far-off");
   far.estimates_m[0].row(3).setConstant(NAN);
   far.estimates_m[1].row(7) << 90.0, -40.0;
   figures.push_back(ellipse_map_figure(far));
