@@ -436,6 +436,25 @@ TEST(ParetoFigure, NamesWhatWasNotTimedAndJoinsNoSinglePoint) {
   EXPECT_EQ(figure.notes[0].text, "Not timed, and not shown: SMACOF and SDE.");
 }
 
+TEST(ParetoFigure, LeavesOutOfItsAxisAndItsFrontWhatDivergedUnlessAllDid) {
+  ParetoSpec spec{.id = "cost",
+                  .settings = {{"fastest", 0.1, 1e6}, {"A", 1.0, 0.3}, {"B", 2.0, 0.1}}};
+  EXPECT_EQ(pareto_front(spec.settings), (std::vector<std::size_t>{1, 2}));
+  const Figure figure = pareto_figure(spec);
+  const Range limits = figure.panels[0].y.limits.value();
+  EXPECT_LT(limits.high, 1.0);
+  const Scatter diverged = labelled<Scatter>(figure.panels[0], kGreatErrorText).value();
+  ASSERT_EQ(diverged.y.size(), 1U);
+  EXPECT_LT(diverged.y[0], limits.high);
+  EXPECT_GT(diverged.y[0], 0.3);
+  EXPECT_TRUE(notes_contain(figure, "Diverged, over 1\u00A0km: fastest."));
+
+  // Now the fastest is 101 times as far off as the others, which are alike.
+  for (CostedSetting& one : spec.settings) one.mpe_m += 1e4;
+  EXPECT_EQ(pareto_front(spec.settings), (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_FALSE(labelled<Scatter>(pareto_figure(spec).panels[0], kGreatErrorText).has_value());
+}
+
 TEST(ParetoFigure, IsMarkedAsVarying) {
   const Figure figure = pareto_figure(sample_costs(10));
   EXPECT_TRUE(figure.varies);

@@ -283,7 +283,7 @@ class Builder {
     for (std::size_t i = 0; i < line.mean.size(); ++i) {
       if (!is_above(line.mean[i])) continue;
       above.x.push_back(line.x[i]);
-      above.y.push_back(axis_.near_top());
+      above.y.push_back(near_end(axis_.scale, axis_.limits));
       MarkData data = {{"x", data_number(line.x[i])}, {"y", data_number(line.mean[i])}};
       std::ranges::copy(over({line.mean[i]}), std::back_inserter(data));
       above.marks.push_back({"", curve_data(line.label, line.setting, std::move(data))});
@@ -397,8 +397,6 @@ std::vector<double> ErrorAxis::raised(std::vector<double> values) const {
       if (!std::isnan(value)) value = std::max(value, 0.5 * limits.low);
   return values;
 }
-
-double ErrorAxis::near_top() const { return near_end(scale, limits); }
 
 Figure error_lines_figure(const ErrorLinesSpec& spec) {
   require_consistent(spec);

@@ -122,9 +122,6 @@ struct ErrorAxis {
 
   /// Values that a log axis cannot show, raised to just below its lower end.
   std::vector<double> raised(std::vector<double> values) const;
-
-  /// Where a mark for a value above the frame stands wholly inside it, above all others.
-  double near_top() const;
 };
 
 /// @param intervals  Both ends of the intervals; may be empty.

@@ -134,7 +134,7 @@ void add_panel(Figure& figure, const PublishedErrorsSpec::Sensor& sensor, const 
 }
 
 constexpr std::size_t kMostMethods = 30;
-constexpr double kBarStep = 0.4;  // Between bars, in rows of labels.
+constexpr double kBarStep = 0.4;          // Between bars, in rows of labels.
 constexpr std::size_t kColumnLabel = 17;  // Characters in a line of a label, in a journal's column.
 constexpr std::size_t kMostFurtherLines = 23;  // A name in a figure has no more.
 constexpr double kFurtherLine = 0.5;           // In rows: on wider pages a label has fewer lines.
@@ -307,6 +307,28 @@ bool usable(const CostedSetting& setting) {
   return setting.seconds > 0.0 && !std::isnan(setting.mpe_m);
 }
 
+std::vector<double> errors_of(const std::vector<CostedSetting>& settings) {
+  std::vector<double> errors_m;
+  for (const CostedSetting& one : settings)
+    if (usable(one)) errors_m.push_back(one.mpe_m);
+  return errors_m;
+}
+
+/// Above which a mean error is that of maps that diverged [m].
+double divergence_m() { return divergence_in("m", true); }
+
+/// An axis of errors, and where triangles stand for those that are not on it.
+struct ParetoAxis {
+  ErrorAxis axis;
+  double ceiling = kInfinity;
+
+  explicit ParetoAxis(const std::vector<double>& errors_m)
+      : axis(error_axis(without_diverged(errors_m, divergence_m()), {}, 8.0)),
+        ceiling(axis_ceiling(errors_m, divergence_m())) {}
+
+  bool holds(double error_m) const { return error_m <= ceiling; }
+};
+
 /// The points of a Pareto figure and the words on them.
 struct ParetoLayers {
   Polyline steps{.label = "Pareto front",
@@ -316,18 +338,20 @@ struct ParetoLayers {
   Scatter best{
       .label = "on the front", .colour = ThemeColour::kSeries2, .marker = Marker::kDiamond};
   Scatter beaten{.label = "dominated", .colour = ThemeColour::kSeries1, .filled = false};
+  Scatter diverged = diverged_dots(ThemeColour::kSeries1);
   PointLabels names;
   std::vector<std::string> words;  ///< Of those on the front.
 };
 
-void add_setting(Scatter& points, const CostedSetting& one, double time, std::size_t i) {
-  add_point(points, {time, one.mpe_m});
+void add_setting(Scatter& points, const CostedSetting& one, Point at, std::size_t i) {
+  add_point(points, at);
   points.marks.push_back({fmt::format("setting-{}", i + 1),
                           {{"setting", one.label}, {"error", data_number(one.mpe_m)}}});
 }
 
 /// @param unit  Of the times.
-ParetoLayers layers_of(const std::vector<CostedSetting>& settings, const ScaledUnit& unit) {
+ParetoLayers layers_of(const std::vector<CostedSetting>& settings, const ScaledUnit& unit,
+                       const ParetoAxis& axis) {
   ParetoLayers layers;
   const std::vector<std::size_t> front = pareto_front(settings);
   for (const std::size_t i : front) {
@@ -335,7 +359,7 @@ ParetoLayers layers_of(const std::vector<CostedSetting>& settings, const ScaledU
     const double time = unit.factor * one.seconds;
     if (!layers.steps.x.empty()) add_point(layers.steps, {time, layers.steps.y.back()});
     add_point(layers.steps, {time, one.mpe_m});
-    add_setting(layers.best, one, time, i);
+    add_setting(layers.best, one, {time, one.mpe_m}, i);
     add_label(layers.names, {time, one.mpe_m}, one.label);
     layers.words.push_back(
         fmt::format("{} ({} in {})", one.label, error_text(one.mpe_m), seconds_text(one.seconds)));
@@ -344,9 +368,11 @@ ParetoLayers layers_of(const std::vector<CostedSetting>& settings, const ScaledU
   for (std::size_t i = 0; i < settings.size(); ++i) {
     const CostedSetting& one = settings[i];
     if (!usable(one) || std::ranges::find(front, i) != front.end()) continue;
-    const double time = unit.factor * one.seconds;
-    add_setting(layers.beaten, one, time, i);
-    if (!crowded) add_label(layers.names, {time, one.mpe_m}, one.label);
+    const bool is_shown = axis.holds(one.mpe_m);
+    const Point at{unit.factor * one.seconds,
+                   is_shown ? one.mpe_m : near_end(axis.axis.scale, axis.axis.limits)};
+    add_setting(is_shown ? layers.beaten : layers.diverged, one, at, i);
+    if (!crowded) add_label(layers.names, at, one.label);
   }
   return layers;
 }
@@ -479,9 +505,10 @@ Figure critical_difference_figure(const CriticalDifferenceSpec& spec) {
 }
 
 std::vector<std::size_t> pareto_front(const std::vector<CostedSetting>& settings) {
+  const double ceiling = axis_ceiling(errors_of(settings), divergence_m());
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < settings.size(); ++i)
-    if (usable(settings[i])) order.push_back(i);
+    if (usable(settings[i]) && settings[i].mpe_m <= ceiling) order.push_back(i);
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
     return std::pair(settings[a].seconds, settings[a].mpe_m) <
            std::pair(settings[b].seconds, settings[b].mpe_m);
@@ -494,16 +521,18 @@ std::vector<std::size_t> pareto_front(const std::vector<CostedSetting>& settings
 
 Figure pareto_figure(const ParetoSpec& spec) {
   require_costs(spec);
-  std::vector<double> errors;
+  const std::vector<double> errors_m = errors_of(spec.settings);
+  const ParetoAxis axis(errors_m);
   double longest_s = 0.0;
-  for (const CostedSetting& one : spec.settings)
-    if (usable(one)) {
-      errors.push_back(one.mpe_m);
-      longest_s = std::max(longest_s, one.seconds);
-    }
-  const ErrorAxis axis = error_axis(errors, {}, 8.0);
+  std::vector<DivergedCount> diverged;
+  for (const CostedSetting& one : spec.settings) {
+    if (!usable(one)) continue;
+    longest_s = std::max(longest_s, one.seconds);
+    diverged.push_back({one.label});
+    diverged.back().see(one.mpe_m, divergence_m());
+  }
   const ScaledUnit unit = scaled_unit("s", longest_s);
-  const ParetoLayers layers = layers_of(spec.settings, unit);
+  const ParetoLayers layers = layers_of(spec.settings, unit, axis);
 
   Figure figure;
   figure.id = spec.id;
@@ -514,24 +543,25 @@ Figure pareto_figure(const ParetoSpec& spec) {
   panel.x.label = fmt::format("time per map [{}]", unit.unit);
   panel.x.scale = Scale::kLog;
   panel.y.label = spec.y_label;
-  panel.y.scale = axis.scale;
-  panel.y.limits = axis.limits;
+  panel.y.scale = axis.axis.scale;
+  panel.y.limits = axis.axis.limits;
   // A front of one setting has its line, too: with other times it may have two settings, and the
   // figure must have the same layers then.
-  if (errors.size() > 1) panel.layers.emplace_back(layers.steps);
-  panel.layers.insert(panel.layers.end(), {layers.beaten, layers.best, layers.names});
+  if (errors_m.size() > 1) panel.layers.emplace_back(layers.steps);
+  panel.layers.insert(panel.layers.end(),
+                      {layers.beaten, layers.best, layers.diverged, layers.names});
   std::erase_if(panel.layers, is_empty);
 
   figure.caption =
       "Mean error against the median time per map, that of the maps it starts from included, a "
       "point per setting; filled: no other is both faster and better. Times are of one start of "
-      "the "
-      "program and differ from one to the next.";
+      "the program and differ from one to the next.";
   figure.alt = fmt::format("{} against the time per map for {}.", spec.y_label,
-                           counted(static_cast<long long>(errors.size()), "setting"));
+                           counted(static_cast<long long>(errors_m.size()), "setting"));
   if (!layers.words.empty())
     figure.alt += " On the Pareto front: " + listed(layers.words, 12) + ".";
-  if (errors.empty()) figure.notes.push_back({"There are no settings.", ThemeColour::kWarning});
+  if (errors_m.empty()) figure.notes.push_back({"There are no settings.", ThemeColour::kWarning});
+  note_diverged(diverged, "at", "points", figure.notes);
   if (!spec.untimed.empty())
     figure.notes.push_back({fmt::format("Not timed, and not shown: {}.", listed(spec.untimed, 4)),
                             ThemeColour::kWarning});
