@@ -19,13 +19,6 @@ constexpr double kColumnGap = 1.4;
 constexpr double kRowHeight = 1.45;
 constexpr double kLineHeight = 1.2;  // Of a further line of an entry.
 
-/// The label in lines of at most `most` em where titles are not drawn, on paper: a name is read
-/// whole. In one line, elided in its middle, on pages, which break lines themselves.
-std::vector<ShapedText> lines_of(const std::string& label, double most, const Theme& theme) {
-  if (!theme.draws_title) return name_lines(theme, label, most);
-  return {shape_text_within(label_in(theme, label), most, Elide::kMiddle, theme.font.get())};
-}
-
 /// In points, what a sample needs to show two periods of each dash of the panel, with a dash at
 /// either end: a marker in the middle then hides none of the two gaps.
 double longest_dashes(const Panel& panel, const Theme& theme) {
@@ -172,7 +165,7 @@ Legend::Legend(const Panel& panel, const Theme& theme, double most_width_pt, boo
         same->in_colours |= std::get<Scatter>(**kind).colour != points->colour;
       continue;
     }
-    entries_.push_back({lines_of(label, most_text, theme), label, {&layer}});
+    entries_.push_back({name_lines(theme, label, most_text), label, {&layer}});
     entry_width_ = std::max(entry_width_, width_of(entries_.back()));
   }
   // What stands for points comes before what stands for lines between them.

@@ -26,8 +26,7 @@ struct LegendArrangement {
 /// A panel's legend before it has a position.
 class Legend {
  public:
-  /// @param most_width_pt  Of one entry; longer labels are broken into lines on paper, and elided
-  ///                       where they are too long even so. Pages break lines themselves.
+  /// @param most_width_pt  Of one entry; longer labels are broken into lines.
   /// @param as_bars  Whether bands are drawn as bars.
   Legend(const Panel& panel, const Theme& theme, double most_width_pt, bool as_bars);
 

@@ -441,10 +441,14 @@ TEST(Layout, CutsNoNameOfARowAndLeavesNoneOut) {
   }
 }
 
-TEST(Layout, CutsNoNameInALegendOnPaper) {
+TEST(Layout, CutsNoNameInALegend) {
   const Figure figure = with_lines({1.0, 3.0, 2.9}, long_name(1) + ", then " + long_name(2));
-  for (const std::string& broken : broken_rules(figure, paper_theme(3.25)))
-    EXPECT_EQ(broken.find(" is cut"), std::string::npos) << broken;
+  for (const Theme& theme : {report_theme(), paper_theme(3.25)}) {
+    for (const std::string& broken : broken_rules(figure, theme))
+      EXPECT_EQ(broken.find(" is cut"), std::string::npos) << broken;
+    for (const std::string& line : legend_words(lay_out(figure, theme)))
+      EXPECT_EQ(line.find("…"), std::string::npos) << line;
+  }
 }
 
 TEST(LineEnds, ThatAreFarFromTheRightSideNeedALegend) {
