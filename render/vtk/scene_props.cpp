@@ -38,11 +38,11 @@ bool is_dark(Colour ground) {
   return contrast(ground, Colour{}) < contrast(ground, colour(0xFFFFFF));
 }
 
-/// On a dark ground pale colours are less pale: else its floors would be as dark as shadows.
+/// On a dark ground pale colours are less pale: a floor of 0.12 has a contrast of 2.4:1 to the dark
+/// end of viridis and of 5.4:1 to its light end, where it would else be as dark as the former.
 Colour plain_colour(const Style& style, const SceneRequest& request) {
-  constexpr double kLessPale = 1.8;
-  const double share = is_dark(request.background) ? 1.0 - std::pow(1.0 - style.share, kLessPale)
-                                                   : style.share;
+  constexpr double kLessPale = 0.35;
+  const double share = is_dark(request.background) ? std::pow(style.share, kLessPale) : style.share;
   return mix(request.colours[static_cast<std::size_t>(style.colour)], request.background, share);
 }
 
@@ -165,8 +165,7 @@ Props baked_surface(const Surface& surface, const Paint& paint) {
   TriangleMesh mesh = fine_mesh(surface, kLongest * paint.light->extent());
   for (std::size_t i = 0; i < mesh.points.size(); ++i)
     if (mesh.normals[i].dot(paint.eye - mesh.points[i]) < 0.0) mesh.normals[i] *= -1.0;
-  const std::vector<Colour> colours(mesh.points.size(),
-                                    plain_colour(surface.style, paint.request));
+  const std::vector<Colour> colours(mesh.points.size(), plain_colour(surface.style, paint.request));
   return baked_props(mesh, colours, surface.style, paint);
 }
 

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <sstream>
 
@@ -15,6 +16,7 @@
 #include "render/output/write_scene.hpp"
 #include "render/scene/projection.hpp"
 #include "render/svg/svg.hpp"
+#include "render/theme/palette.hpp"
 #include "tests/support/environment.hpp"
 #include "tests/support/images/baselines.hpp"
 #include "tests/support/samples/sample_scenes.hpp"
@@ -99,6 +101,21 @@ TEST_P(ScenePixelsByEachWay, InOtherColoursOfTheSameLightAreThoseDrawnAlone) {
     EXPECT_EQ(one.draw(scene, dark).pixels, other.draw(scene, dark).pixels) << scene.id;
     EXPECT_EQ(drawn(one, scene).pixels, drawn(other, scene).pixels) << scene.id;
   }
+}
+
+TEST(ScenePixels, OfAFloorInTheDarkDifferFromBothEndsOfARamp) {
+  const std::vector<Scene> scenes = sample_scenes();
+  const auto world = std::ranges::find(scenes, "world-usual", &Scene::id);
+  ASSERT_NE(world, scenes.end());
+  const Theme dark = dark_theme();
+  const Image image = client().draw(*world, scene_request(0, 320, 240, 4, dark));
+  std::map<std::uint32_t, int> counts;
+  for (const std::uint32_t pixel : image.pixels) ++counts[pixel & 0xFFFFFF];
+  counts.erase(image.pixels.front() & 0xFFFFFF);  // The background.
+  const Colour floor = colour(
+      std::ranges::max_element(counts, {}, [](const auto& one) { return one.second; })->first);
+  EXPECT_GE(contrast(floor, viridis(0.0)), 2.0);
+  EXPECT_GE(contrast(floor, viridis(1.0)), 4.0);
 }
 
 TEST(SceneDrawingTest, HasDarkImagesForAPageAlone) {
