@@ -60,8 +60,9 @@ std::vector<QuantityDifferences> difference_summary(const RecordDiff& diff) {
 }
 
 std::string differences_text(const QuantityDifferences& differences) {
-  std::string text = fmt::format("{}: {} differ", differences.quantity.label,
-                                 counted(differences.records, "record"));
+  std::string text =
+      fmt::format("{}: {} {}", differences.quantity.label, counted(differences.records, "record"),
+                  differences.records == 1 ? "differs" : "differ");
   if (differences.worse + differences.better > 0)
     text += fmt::format(", {} worse, {} better", differences.worse, differences.better);
   if (std::isfinite(differences.median))

@@ -188,8 +188,12 @@ class NumberComparer {
   }
 
   void lines(std::string_view a, std::string_view b, const Tolerance& tolerance) {
-    for (int line = 1; !a.empty() || !b.empty(); ++line)
-      text(take_line(a), take_line(b), fmt::format("line {}", line), tolerance);
+    for (int line = 1; !a.empty() || !b.empty(); ++line) {
+      std::string first = take_line(a), second = take_line(b);
+      // Ends of lines that both files have are no part of what is shown.
+      if (first.ends_with('\r') && second.ends_with('\r')) first.pop_back(), second.pop_back();
+      text(first, second, fmt::format("line {}", line), tolerance);
+    }
   }
 
  private:

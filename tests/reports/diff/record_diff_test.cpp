@@ -8,6 +8,7 @@
 #include "core/base/errors.hpp"
 #include "core/records/maps/map_json.hpp"
 #include "core/statistics/paired_change.hpp"
+#include "reports/diff/records/difference_summary.hpp"
 #include "reports/diff/records/number_diff.hpp"
 #include "reports/diff/records/numbers_in_text.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -415,6 +416,24 @@ TEST(RecordDiff, ShowsAllValuesOfAQuantityInTheUnitThatKeepsThemShort) {
   EXPECT_TRUE(comparison_text(diff.comparisons[0])
                   .starts_with("time per scan 0.400 \u2192 0.800 ms over 6 runs"))
       << comparison_text(diff.comparisons[0]);
+}
+
+TEST(RecordDiff, ShowsNoEndOfALineThatBothFilesHave) {
+  const test::TemporaryFolder folder;
+  folder.file("a.csv", "name,x_m\r\nL1,1\r\n");
+  folder.file("b.csv", "name,y_m\r\nL1,1\r\n");
+  const OtherDiff diff = number_diff("a.csv", folder / "a.csv", folder / "b.csv", {});
+  EXPECT_EQ(diff.first, "line 1");
+  EXPECT_EQ(diff.baseline, "name,x_m");
+  EXPECT_EQ(diff.current, "name,y_m");
+}
+
+TEST(RecordDiff, SaysHowManyScoresOfAQuantityDiffer) {
+  QuantityDifferences differences{.quantity = known_quantity("mpe_m"), .records = 1, .better = 1};
+  differences.low = differences.median = differences.high = NAN;
+  EXPECT_EQ(differences_text(differences), "MPE: 1 record differs, 0 worse, 1 better");
+  differences.records = 2;
+  EXPECT_EQ(differences_text(differences), "MPE: 2 records differ, 0 worse, 1 better");
 }
 
 TEST(RecordDiff, OneMoreStepOfAMapIsASettingAndNoOtherRecord) {
