@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <string_view>
 #include <vector>
 
@@ -233,24 +234,24 @@ void add_frames(const Table& table, bool copies, data& out) {
   out.set("latex_tail", latex.tail);
 }
 
-/// A note that an earlier table has is said there alone.
+/// A note that an earlier table has is said there alone: a link leads to it by its number.
 void add_notes(const Table& table, const FigureContext& drawn, data& out) {
   list notes, earlier;
-  std::vector<const Table*> named;
+  std::set<std::string_view> seen;
   for (const std::string& note : table.notes) {
-    const auto first = drawn.notes.find(note);
-    if (first == drawn.notes.end() || first->second == &table) {
-      notes.push_back(data("note", note));
-    } else if (std::ranges::find(named, first->second) == named.end()) {
-      named.push_back(first->second);
-      data link;
-      link.set("id", first->second->id);
-      link.set("caption", first->second->caption);
-      earlier.push_back(std::move(link));
-    }
+    if (!seen.insert(note).second) continue;
+    const auto found = drawn.notes.find(note);
+    const FirstNote first = found == drawn.notes.end() ? FirstNote{&table} : found->second;
+    const bool is_here = first.table == &table;
+    data shown;
+    shown.set("note", note);
+    shown.set("number", text_or_false(first.number > 0 ? std::to_string(first.number) : ""));
+    shown.set("later", data(!earlier.empty()));
+    (is_here ? notes : earlier).push_back(std::move(shown));
   }
-  out.set("any_notes", !notes.empty() || !earlier.empty());
+  out.set("any_notes", data(!notes.empty() || !earlier.empty()));
   out.set("notes", notes);
+  out.set("any_earlier_notes", data(!earlier.empty()));
   out.set("earlier_notes", earlier);
 }
 
@@ -364,10 +365,18 @@ data figure_data(const FigureBlock& figure, const FigureContext& drawn,
   return out;
 }
 
-std::map<std::string, const Table*> first_notes(const Report& report) {
-  std::map<std::string, const Table*> first;
+std::map<std::string, FirstNote> first_notes(const Report& report) {
+  std::map<std::string, FirstNote> first;
+  std::set<std::string_view> shared;
   for (const Table* table : tables(report))
-    for (const std::string& note : table->notes) first.emplace(note, table);
+    for (const std::string& note : table->notes)
+      if (first.try_emplace(note, FirstNote{table}).first->second.table != table)
+        shared.insert(note);
+  std::size_t count = 0;
+  for (const Table* table : tables(report))
+    for (const std::string& note : table->notes)
+      if (FirstNote& one = first.at(note); one.number == 0 && shared.contains(note))
+        one.number = ++count;
   return first;
 }
 

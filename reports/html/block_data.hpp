@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -14,15 +16,20 @@ inline constexpr std::size_t kMostRowsOpen = 30;  ///< Longer tables are folded 
 /// Longer lists of links to other pages are folded at first.
 inline constexpr std::size_t kMostLinksOpen = 12;
 
+/// Where a page has a note of its tables.
+struct FirstNote {
+  const Table* table = nullptr;  ///< The first one that has it.
+  std::size_t number = 0;  ///< Of the notes that several tables have, from 1; 0: no other has it.
+};
+
 /// Facts on the figures of a page besides their blocks.
 struct FigureContext {
   SvgLookup svg = {};
-  /// The table that first has a note: the notes of later tables refer to it.
-  std::map<std::string, const Table*> notes = {};
+  std::map<std::string, FirstNote> notes = {};  ///< Of its tables: later ones refer to the first.
 };
 
-/// Each note of the report's tables, with the first table that has it.
-std::map<std::string, const Table*> first_notes(const Report& report);
+/// Each note of the report's tables; those of several tables are numbered in the order of the page.
+std::map<std::string, FirstNote> first_notes(const Report& report);
 
 /// A drawing with rings around the points of curves that got worse.
 struct MarkedDrawing {

@@ -408,10 +408,11 @@ test("a cell of the matrix of warnings opens the runs that it counts", async () 
 test("a note of several tables is said once, and the others link to it", async () => {
   const { page, close } = await open();
   const notes = await page.locator(".notes li").evaluateAll(
-    (all) => all.map((note) => note.textContent).filter((text) => !text.startsWith("Notes as")));
+    (all) => all.map((note) => note.textContent).filter((text) => !text.startsWith("See note")));
   assert.equal(new Set(notes).size, notes.length);
-  for (const link of await page.locator('.notes a[href^="#table-"]').all()) {
-    assert.equal(await page.locator(await link.getAttribute("href")).count(), 1);
+  for (const link of await page.locator('.notes a[href^="#note-"]').all()) {
+    const said = page.locator(`.notes ${await link.getAttribute("href")}`);
+    assert.match(await said.textContent(), new RegExp(`^${await link.textContent()}: `, "i"));
   }
   await close();
 });

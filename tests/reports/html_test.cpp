@@ -238,6 +238,32 @@ TEST(ReportHtml, LinksANumberToTheTableThatHasIt) {
   EXPECT_THROW(report_html(report, load_templates(), {}), InvalidInput);
 }
 
+TEST(ReportHtml, SaysANoteOfSeveralTablesOnceAndLinksLaterOnesToItAlone) {
+  const auto table = [](const char* id, std::vector<std::string> notes) {
+    return Table{id, id, {{"Method", "", "", ""}}, {}, std::move(notes)};
+  };
+  const Report report{"r",
+                      "",
+                      {{"s",
+                        "S",
+                        {table("one", {"Of one alone.", "Shared by all.", "Shared by two."}),
+                         table("two", {"Shared by all.", "Of two alone."}),
+                         table("three", {"Shared by all.", "Shared by two."})}}},
+                      ""};
+  const std::string page = report_html(report, load_templates(), {});
+  const auto notes_of = [&](const std::string& id) {
+    const std::string shown = page.substr(page.find("id=\"table-" + id));
+    return all_matches(between(shown, "<ul class=\"notes\">", "</ul>"), "  <li(.*)</li>");
+  };
+  const std::string first = "<a href=\"#note-1\">note 1</a>";
+  EXPECT_EQ(notes_of("one"),
+            (std::vector<std::string>{">Of one alone.", " id=\"note-1\">Note 1: Shared by all.",
+                                      " id=\"note-2\">Note 2: Shared by two."}));
+  EXPECT_EQ(notes_of("two"), (std::vector<std::string>{">Of two alone.", ">See " + first + "."}));
+  EXPECT_EQ(notes_of("three"),
+            std::vector<std::string>{">See " + first + ", <a href=\"#note-2\">note 2</a>."});
+}
+
 TEST(ReportHtml, MarksANumberThatFallsShortInWordsToo) {
   Report report;
   report.opening.numbers.items = {{.label = "of 4 found", .value = "3", .detail = ""}};
