@@ -11,14 +11,16 @@ function isMap({ x = "", y = "" }, [, , width, height]) {
   return kind === "linear" && other === "linear" && Math.abs(across - up) < .001 * up;
 }
 
-// Lines and marks that can be seen in a small image. Curves fill it; maps keep their proportions.
+// Lines and marks that can be seen in a small image. Curves and heat maps fill it; maps keep their
+// proportions.
 function strengthen(svg, keepsProportions) {
   const kTimes = 2;
-  for (const grid of svg.querySelectorAll("g.grid, g.mark-label")) grid.remove();
+  for (const grid of svg.querySelectorAll("g.grid")) grid.remove();
+  for (const words of svg.querySelectorAll("g.mark-label, g.cell-text")) words.remove();
   for (const line of svg.querySelectorAll("[stroke-width]")) {
     line.setAttribute("stroke-width", kTimes * Number(line.getAttribute("stroke-width")));
   }
-  if (keepsProportions || !svg.querySelector("[data-curve] path")) return;
+  if (keepsProportions || !svg.querySelector("[data-curve] path, g.cells")) return;
   svg.setAttribute("preserveAspectRatio", "none");
   for (const path of svg.querySelectorAll("path")) {
     path.setAttribute("vector-effect", "non-scaling-stroke");

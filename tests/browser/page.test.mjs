@@ -883,6 +883,21 @@ test("small images of curves show lines alone, over the whole image", async () =
   await close();
 });
 
+test("small images of heat maps show all cells, without their numbers", async () => {
+  const { page, close } = await open();
+  const shown = await page.evaluate(() => cropped(`<svg xmlns="http://www.w3.org/2000/svg" width="200"
+    height="160" viewBox="0 0 200 160"><defs><clipPath id="h-c0"><rect x="50" y="20" width="120"
+    height="90"/></clipPath></defs><g class="cells" clip-path="url(#h-c0)" fill="#440154"><path
+    d="m50 20h120v90h-120z"/></g><g class="cell-text"><path d="m60 30l9 9"/></g></svg>`));
+  assert.match(shown, /class="cells"/);
+  assert.doesNotMatch(shown, /cell-text/);
+  // The box of small images is twice as wide as high: nothing of the frame is cut.
+  assert.match(shown, /viewBox="50 20 120 90"/);
+  assert.match(shown, /width="120"\s+height="60"/);
+  assert.match(shown, /preserveAspectRatio="none"/);
+  await close();
+});
+
 test("all methods are shown on one run with the same axes, and a landmark in all of them", async () => {
   const { page, close } = await open();
   const wall = await figure(page, "maps-bearing");
