@@ -242,17 +242,18 @@ function lowestShare(svg, parts, owners, i, height) {
     leastShare(svg, tickLabelsOf(parts.panels[i], frame)));
 }
 
-// Makes frames so narrow that they need no more than `most` with what is around them; those whose
-// axes have scales of their own also as low as `height`, if that is less.
-function narrowFrames(svg, parts, rooms, most, height = Infinity) {
+// Makes frames so narrow that they need no more than `most` with what is around them, and so wide that
+// they need `least`; those whose axes have scales of their own also as low as `height`, if that is less.
+function narrowFrames(svg, parts, rooms, most, height = Infinity, least = 0) {
   widths.set(svg, { attributes: [], frames: parts.frames.map((frame) => ({ ...frame })) });
-  const room = most - rooms.left - rooms.right;
+  const around = rooms.left + rooms.right;
   const owners = parts.axes.map((label) => frameOfLabel(label, parts.frames));  // Before any moves.
   // Frames that share an axis have its labels beside one of them: all get as low as that one can.
   const lowest = height === Infinity ? 1 : Math.max(
     ...parts.frames.map((frame, i) => lowestShare(svg, parts, owners, i, height)));
   parts.frames.forEach((frame, i) => {
-    const across = Math.min(1, room / frame.width), panel = parts.panels[i];
+    const panel = parts.panels[i];
+    const across = Math.min(Math.max(1, (least - around) / frame.width), (most - around) / frame.width);
     const down = hasOneScale(panel, frame) ? across : height < frame.height ? lowest : 1;
     const before = { ...frame };
     const at = ({ x, y }) => ({ x: before.x + across * (x - before.x),

@@ -71,7 +71,7 @@ function arrangedIn(text, width_px, height_px) {
   if (arrangement) {
     const whole = stack(svg, parts, arrangement);
     // What is too high gets smaller, as far as its words can be read.
-    const most = width_px * leastWords(svg) / kLeastWords_px;
+    const most = mostWidth(svg, width_px);
     const width = Math.max(whole.width, Math.min(most, whole.height * width_px / height_px));
     whole.x -= (width - whole.width) / 2;
     whole.width = width;

@@ -27,29 +27,43 @@ function addDrawnTitle(svg, parts) {
   svg.parentElement.before(title);
 }
 
-// Whether the words of a drawing could not be read in a box of that width.
-function isTooWide(svg, parts, width_px) {
-  return parts.whole.width > width_px * leastWords(svg) / kLeastWords_px;
+// The width, in units of a drawing, of the widest one whose words can be read in a box of that width.
+function mostWidth(svg, width_px) {
+  return width_px * leastWords(svg) / kLeastWords_px;
 }
 
+// Whether the words of a drawing could not be read in a box of that width.
+function isTooWide(svg, parts, width_px) {
+  return parts.whole.width > mostWidth(svg, width_px);
+}
+
+// Of height: in lower frames marks of single runs hide each other, and two of these with their axes and
+// a legend are on the first screen of a phone.
+const kLeastFrame_px = 115;
+
 // How the panels are arranged in a box of that width, and if they can be in one of that height; null
-// if they are to stay as they are drawn.
+// if they are to stay as they are drawn. Where the height is limited, frames take the whole width, but
+// those of maps and images, and are lower only if they are drawn so than kLeastFrame_px.
 function arrangementOf(svg, parts, width_px, height_px = Infinity) {
   if (parts.panels.length === 0 || !(width_px > 0)) return null;
   if (!isTooWide(svg, parts, width_px)) return null;
-  const most = width_px * leastWords(svg) / kLeastWords_px;
-  const rooms = roomsOf(svg, parts);
+  const most = mostWidth(svg, width_px), rooms = roomsOf(svg, parts);
   if (!rooms) return null;
   const greatest = (name) => Math.max(...parts.frames.map((frame) => frame[name]));
   const around = { width: rooms.left + rooms.right, height: rooms.above + rooms.below };
   if (most <= around.width) return null;  // No room for a frame.
-  const width = Math.min(most, greatest("width") + around.width);
-  const columns = Math.max(1, Math.min(parts.panels.length, Math.floor(most / width)));
+  const drawn = Math.min(most, greatest("width") + around.width);
+  const columns = Math.max(1, Math.min(parts.panels.length, Math.floor(most / drawn)));
   const rows = Math.ceil(parts.panels.length / columns);
-  const kLegend_px = 60;
-  const row = (height_px - kLegend_px) * columns * width / width_px / rows;
-  if (greatest("width") + around.width > most || greatest("height") + around.height > row) {
-    narrowFrames(svg, parts, rooms, most, row - around.height);
+  const isStretched = height_px < Infinity &&
+    !parts.panels.some((panel, i) => hasOneScale(panel, parts.frames[i]));
+  const width = isStretched ? most / columns : drawn;
+  const kLegend_px = 60, perPixel = columns * width / width_px;
+  const height = Math.max((height_px - kLegend_px) * perPixel / rows - around.height,
+    kLeastFrame_px * perPixel);
+  if (isStretched) narrowFrames(svg, parts, rooms, width, height, width);
+  else if (greatest("width") + around.width > most || greatest("height") > height) {
+    narrowFrames(svg, parts, rooms, most, height);
   }
   return { rooms, columns, width, height: greatest("height") + around.height };
 }

@@ -744,6 +744,34 @@ test("on a phone the main figure keeps its notes, as text below it", { skip: !mr
   await close();
 });
 
+test("on a phone the panels of the main figure have its width and a height to be read at", async () => {
+  const { page, close } = await open(phone);
+  const { frames, whole, least, least_px } = await page.evaluate(() => {
+    const kWidth_px = 350, kLeft_px = 100;  // The first screen has room for a part of one panel.
+    const { text } = narrowed(sourceOf(document.getElementById("figure-published-errors")),
+      kWidth_px, kLeft_px);
+    const box = document.createElement("div");
+    box.className = "measured";
+    box.append(drawingOf(text));
+    document.body.append(box);
+    const svg = box.firstChild, scale = kWidth_px / svg.getBoundingClientRect().width;
+    const boxOf = (each) => {
+      const { right, top, width, height } = each.getBoundingClientRect();
+      return { right: scale * right, top, width: scale * width, height: scale * height };
+    };
+    return { frames: [...svg.querySelectorAll(":scope > g.frame")].map(boxOf), whole: boxOf(svg),
+      least: leastWords(svg) * kWidth_px / viewBoxOf(svg).width, least_px: kLeastFrame_px };
+  });
+  assert.equal(new Set(frames.map(({ top }) => Math.round(top))).size, 2);
+  for (const frame of frames) {
+    assert.ok(frame.height >= least_px, `${frame.height} px high`);
+    assert.ok(frame.width > .7 * whole.width && whole.right - frame.right < .05 * whole.width,
+      JSON.stringify({ frame, whole }));
+  }
+  assert.ok(least >= 9.99, `words of ${least} px`);
+  await close();
+});
+
 test("a phone shows where the head tells how to make it again", async () => {
   const { page, close } = await open(phone);
   assert.ok(await page.locator(".made a").isVisible());
