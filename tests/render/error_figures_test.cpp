@@ -1,10 +1,14 @@
+#include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/random.hpp"
 #include "render/figures/curves/best_line.hpp"
 #include "render/figures/curves/error_curve.hpp"
 #include "render/figures/curves/method_series.hpp"
@@ -373,7 +377,63 @@ TEST(BestLine, OfOneThatTiesThroughoutButIsDrawnAboveAnotherNamesBoth) {
   const ErrorLine late = three_points("K", {1, 4, 1}, 0.1),
                   other = three_points("L", {4, 1.3, 4}, 0.1);
   EXPECT_EQ(best_over({h, late, other}, {}, line_axis("noise [°]")),
-            "H ties for the lowest MPE throughout");
+            "K has the lowest mean MPE at 1° and 3°, where it ties with others");
+}
+
+TEST(BestLine, IsNotThroughoutWhereOnlyItsOwnWideIntervalTiesIt) {
+  // W is the highest at the end.
+  ErrorLine w = three_points("W", {1.05, 1.1, 9}, 0.1), n = three_points("N", {1, 1, 1.15}, 0.1);
+  const ErrorLine o = three_points("O", {4, 4, 1}, 0.1), p = three_points("P", {4, 4, 4}, 0.1);
+  w.low.back() = 0.5;
+  w.high.back() = 17.5;
+  EXPECT_EQ(best_over({w, n, p}, {}, {"noise"}), "N ties for the lowest MPE throughout");
+  w.mean.front() = 0.95;
+  EXPECT_EQ(best_over({w, n, o, p}, {}, {"noise"}), "") << "each leads once";
+  for (ErrorLine* line : {&w, &n}) {
+    line->x.push_back(4);
+    line->mean.push_back(line == &w ? 1.15 : 1);
+    line->low.push_back(line->mean.back() - 0.1);
+    line->high.push_back(line->mean.back() + 0.1);
+  }
+  EXPECT_EQ(best_over({w, n, o, p}, {}, line_axis("noise [°]")),
+            "N has the lowest mean MPE at 2° and 4°, where it ties with others");
+}
+
+/// Of methods that are called by a letter each: those that a title begins with.
+std::string letters_before(const std::string& title, const std::string& end) {
+  std::string letters;
+  for (const char one : title.substr(0, title.find(end)))
+    if (one >= 'A' && one <= 'D') letters += one;
+  return letters;
+}
+
+TEST(BestLine, ThroughoutIsNeverFarAboveTheBestAtAnyPoint) {
+  Random random(5);
+  int stated = 0;
+  for (int i = 0; i < 2000; ++i) {
+    std::vector<ErrorLine> lines;
+    for (const char* label : {"A", "B", "C", "D"})
+      lines.push_back(
+          three_points(label, {random.uniform(1, 2), random.uniform(1, 2), random.uniform(1, 2)},
+                       random.uniform(0.02, 0.5)));
+    const std::string title = best_over(lines, {}, {"noise"});
+    if (!title.ends_with(" the lowest MPE throughout")) continue;
+    ++stated;
+    const std::string named = letters_before(title, " the lowest");
+    for (std::size_t x = 0; x < 3; ++x) {
+      const ErrorLine& best =
+          *std::ranges::min_element(lines, {}, [x](const ErrorLine& line) { return line.mean[x]; });
+      double least_named = HUGE_VAL;
+      for (const ErrorLine& line : lines) {
+        if (named.find(line.label) == std::string::npos) continue;
+        least_named = std::min(least_named, line.mean[x]);
+        EXPECT_LE(line.low[x], best.high[x]) << title;
+        EXPECT_LE(line.mean[x], best.mean[x] + best.high[x] - best.low[x]) << title;
+      }
+      EXPECT_LE(least_named, 1.01 * best.mean[x]) << title << ": by the digits shown";
+    }
+  }
+  EXPECT_GT(stated, 20);
 }
 
 TEST(BestLine, IsNobodyWhereAllTieEvenIfFewAreKnownThere) {

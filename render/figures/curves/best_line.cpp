@@ -130,6 +130,13 @@ bool tie(const At& at, const At& best, const LineQuantity& quantity) {
   return is_alike(at, best, quantity) || are_shown_alike(at, best, quantity);
 }
 
+/// Whether a value ties with the best by its own spread alone: with an interval as narrow as the
+/// best's it would not.
+bool is_far_from(const At& best, const At& at) {
+  return best.has_interval() && std::abs(at.mean() - best.mean()) >
+                                    best.line->high[best.index] - best.line->low[best.index];
+}
+
 /// Those that tie with the best, the best first, and the others, ascending from the best on.
 struct Contest {
   std::vector<At> equal, others;
@@ -244,6 +251,31 @@ std::string places(const LineAxis& axis, const std::vector<double>& some, std::s
   return listed(texts, kMostNamed);
 }
 
+/// "SDE has the lowest mean MPE at 5 of 7 points, where it ties with others": the line that leads,
+/// by digits that are shown, at the most points. Empty if none does, or two do equally often.
+/// @param best  As of change_of_lead().
+std::string most_frequent_lead(const std::vector<std::vector<At>>& best,
+                               const std::vector<ErrorLine>& lines, const LineQuantity& quantity,
+                               const LineAxis& axis) {
+  const ErrorLine* leader = nullptr;
+  std::vector<double> most;
+  for (const ErrorLine& line : lines) {
+    std::vector<double> led;
+    for (const std::vector<At>& one : best)
+      if (one.size() > 1 && one[0].line == &line && !are_shown_alike(one[0], one[1], quantity))
+        led.push_back(one[0].x());
+    if (led.empty() || led.size() < most.size()) continue;
+    leader = led.size() == most.size() ? nullptr : &line;
+    most = std::move(led);
+  }
+  if (leader == nullptr) return "";
+  const bool are_several = is_plural(*leader, quantity);
+  return fmt::format("{} {} the {} mean {} at {}, where {} with others", line_name(*leader, lines),
+                     are_several ? "have" : "has", quantity.lower_is_better ? "lowest" : "highest",
+                     quantity.label, places(axis, most, best.size(), quantity),
+                     are_several ? "they tie" : "it ties");
+}
+
 }  // namespace
 
 bool LineQuantity::has_diverged(double value) const {
@@ -310,10 +342,14 @@ std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& q
   if (lines.size() == 1) return best_of_all(lines, quantity, axis);
   std::vector<std::vector<At>> best;
   for (const double x : xs) best.push_back(best_at(lines, x, quantity));
+  // Those that tie with the best at each point, and lie far from it at none.
   const auto in_all = [](const std::vector<std::vector<At>>& points) {
     std::vector<At> some = points.front();
     for (const std::vector<At>& one : points)
-      std::erase_if(some, [&](const At& at) { return !has_line(one, at.line); });
+      std::erase_if(some, [&](const At& at) {
+        const auto here = std::ranges::find(one, at.line, &At::line);
+        return here == one.end() || is_far_from(one.front(), *here);
+      });
     return some;
   };
   const auto has_others = [&](const std::vector<At>& one) {
@@ -343,32 +379,30 @@ std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& q
     return is_beaten(some, lines, xs, quantity) ? where_alone(some)
                                                 : finding(some) + " wherever they differ";
   };
+  // Where all lines are equal, as without a disturbance, none is better.
+  std::vector<std::vector<At>> differing = best;
+  std::erase_if(differing, std::not_fn(has_others));
+  if (differing.empty()) return "";
   const std::vector<At> throughout = in_all(best);
-  if (throughout.size() == lines.size()) return "";
   if (!throughout.empty() && throughout.size() <= kMostNamed) {
     const auto alone = std::ranges::count_if(best, [&](const std::vector<At>& one) {
       return one.size() == throughout.size() && has_others(one);
     });
-    const auto of_all = std::ssize(best) - std::ranges::count_if(best, has_others);
-    if (of_all == std::ssize(best)) return "";
     if (alone == 0) {
       // A line that ties throughout may be drawn above others at most points.
-      if (is_beaten(throughout, lines, xs, quantity))
-        if (const std::string change = change_of_lead(best, lines, quantity, axis); !change.empty())
-          return change;
+      if (is_beaten(throughout, lines, xs, quantity)) {
+        const std::string change = change_of_lead(best, lines, quantity, axis);
+        return change.empty() ? most_frequent_lead(best, lines, quantity, axis) : change;
+      }
       const bool several = throughout.size() > 1 || is_plural(*throughout.front().line, quantity);
       return fmt::format("{} {} for the {} {} throughout", listed_names(throughout, lines),
                          several ? "tie" : "ties", quantity.lower_is_better ? "lowest" : "highest",
                          quantity.label);
     }
     if (alone == std::ssize(best)) return finding(throughout) + " throughout";
-    return alone + of_all == std::ssize(best) ? wherever_they_differ(throughout)
-                                              : where_alone(throughout);
+    return alone == std::ssize(differing) ? wherever_they_differ(throughout)
+                                          : where_alone(throughout);
   }
-  // Where all lines are equal, as without a disturbance, none is better.
-  std::vector<std::vector<At>> differing = best;
-  std::erase_if(differing, std::not_fn(has_others));
-  if (differing.empty()) return "";
   if (const std::vector<At> some = in_all(differing); !some.empty() && some.size() <= kMostNamed)
     return wherever_they_differ(some);
   std::erase_if(differing, [](const std::vector<At>& one) { return one.size() > kMostNamed; });

@@ -51,8 +51,11 @@ std::size_t ties_at_end(const std::vector<ErrorLine>& lines, const LineQuantity&
 /// lowest MPE at noise = 0, HLLE at 20"; of one line, where it is best. Lines tie where the paired
 /// test or, without one, their intervals do not tell them from the best, or their digits shown are
 /// equal: "ISOMAP has the lowest MPE at 10°; elsewhere
-/// it ties with others", "ISOMAP ties for the lowest MPE throughout". Empty if nothing is known, if
-/// all lines tie, or if more than three lines are best wherever they differ.
+/// it ties with others", "ISOMAP ties for the lowest MPE throughout". "Throughout" is said of no
+/// line that ties at some x by its own wide interval alone; where no line is the best or drawn as
+/// low as it throughout: "SDE has the lowest mean MPE at 5 of 7 points, where it ties with others".
+/// Empty if nothing is known, if all lines tie, or if more than three lines are best wherever they
+/// differ.
 std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& quantity,
                       const LineAxis& axis);
 
