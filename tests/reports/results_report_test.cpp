@@ -79,6 +79,27 @@ TEST(ResultsReport, WarnsOfPathsOfWhichFewPosesAreAssociated) {
   EXPECT_FALSE(warns(90.0));
 }
 
+TEST(ResultsReport, WarnsOnceOfAMethodThatDivergedAndCountsWhere) {
+  for (const double levels : {1.0, 3.0}) {
+    Rows rows;
+    for (const double level : {1.0, 2.0, 3.0})
+      rows.add("ekf", "a1", 0.1, {{"noise", level}})
+          .add("odometry", "a1", level <= levels ? 1e8 : 2.0, {{"noise", level}});
+    const ResultsStudy study = rows.study();
+    const ResultsView view(study);
+    const Report report = results_report(
+        {.view = view, .comparisons = compare_methods(view), .figures = {}, .provenance = {}});
+    const Highlights::Item& tile = report.opening.numbers.items.back();
+    EXPECT_EQ(tile.label, "warning");
+    EXPECT_EQ(tile.value, "1");
+    EXPECT_TRUE(tile.detail.starts_with("the mean MPE of odometry is over 1\u00A0km ("))
+        << tile.detail;
+    EXPECT_TRUE(tile.detail.ends_with(levels == 1.0 ? "noise 1)" : "noise 1; and 2 more)"))
+        << tile.detail;
+    EXPECT_EQ(report.opening.wrong.phrases.at(0).text, ": " + tile.detail + ".");
+  }
+}
+
 /// Two methods of five runs, each in a group of its own, by two quantities.
 ResultsStudy study_of_two_quantities() {
   Rows rows;

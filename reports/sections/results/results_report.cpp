@@ -475,25 +475,37 @@ std::string unequal_poses(const ResultsReportInput& input) {
                      label_of(methods, most->first), count_text(most->second));
 }
 
-/// "the mean ATE of DSO is over 1 km (outdoors)": of each method whose maps or paths diverged in
-/// the mean, the first place; empty if none did.
+/// Where the mean of a quantity is that of maps or paths that diverged.
+struct Divergence {
+  const Quantity* quantity = nullptr;
+  std::vector<std::string> where = {};  ///< One at least.
+};
+
+/// "the mean ATE of DSO is over 1 km (outdoors; and 1 more)": of each method whose maps or paths
+/// diverged in the mean, the first quantity and where; empty if none did.
 std::string diverged_methods(const ResultsView& view) {
   constexpr std::size_t kMostDiverged = 3;
-  std::map<std::size_t, std::string> found;  // By the method's index.
+  std::map<std::size_t, Divergence> found;  // By the method's index.
   for (const ResultsBlock& block : view.blocks())
     for (const Quantity* quantity : view.quantities(block)) {
       if (!view.has_great_errors(*quantity)) continue;
       for (const ResultsLine& line : view.lines(block, *quantity))
-        for (std::size_t i = 0; i < block.conditions.size(); ++i)
-          if (const auto mean = view.mean(block.conditions[i], line, *quantity);
-              mean && mean->mean > kGreatestError_m)
-            found.try_emplace(line.index,
-                              fmt::format("the mean {} of {} is {} ({})", quantity->label,
-                                          view.study().methods[line.index].label,
-                                          error_text(kInfinity), view.words_of(block, i)));
+        for (std::size_t i = 0; i < block.conditions.size(); ++i) {
+          const auto mean = view.mean(block.conditions[i], line, *quantity);
+          if (!mean || mean->mean <= kGreatestError_m) continue;
+          Divergence& divergence = found.try_emplace(line.index, quantity).first->second;
+          if (divergence.quantity->id == quantity->id)
+            divergence.where.push_back(view.words_of(block, i));
+        }
     }
   std::vector<std::string> texts;
-  for (auto& [method, text] : found) texts.push_back(std::move(text));
+  for (const auto& [method, divergence] : found) {
+    const std::size_t more = divergence.where.size() - 1;
+    texts.push_back(fmt::format("the mean {} of {} is {} ({}{})", divergence.quantity->label,
+                                view.study().methods[method].label, error_text(kInfinity),
+                                divergence.where.front(),
+                                more == 0 ? "" : fmt::format("; and {} more", more)));
+  }
   return listed(texts, kMostDiverged);
 }
 
