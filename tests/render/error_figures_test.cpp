@@ -246,6 +246,18 @@ TEST(BestLine, TiesWithNothingThatDiverged) {
   EXPECT_EQ(best_over({a, c}, distance, {"noise"}), "");
 }
 
+TEST(DivergedWords, NameOneLineAndCountSeveral) {
+  const ErrorLine a = of_means("A", {1, 2}), b = of_means("B, K = 5", {1e4, 1e5}),
+                  c = of_means("C", {1, 1e5});
+  EXPECT_EQ(diverged_words({a}, {}), "");
+  EXPECT_EQ(diverged_words({a, b}, {}), "B over 1\u00A0km");
+  EXPECT_EQ(diverged_words({a, b, b}, {}), "B over 1\u00A0km") << "of two panels";
+  EXPECT_EQ(diverged_words({a, c}, {}), "C over 1\u00A0km at some points");
+  EXPECT_EQ(diverged_words({a, b, c}, {}), "2 methods over 1\u00A0km at some points");
+  EXPECT_EQ(diverged_words({b}, {}), "") << "the range itself says it";
+  EXPECT_EQ(diverged_words({a, b}, {.great_errors = false}), "");
+}
+
 TEST(BestLine, IsJudgedByThePairedTestWhereThereIsOne) {
   using enum PairedWithBest;
   ErrorLine a = three_points("A", {1, 2, 3}, 0.3), b = three_points("B", {1.1, 2.1, 3.1}, 0.3);

@@ -380,10 +380,25 @@ TEST(ResultsFigures, WhatDivergedWidensNoAxisOfDots) {
     ASSERT_FALSE(figure.notes.empty()) << figure.title;
     EXPECT_EQ(figure.notes.back().text, "Diverged, over 1\u00A0km: odometry.");
     EXPECT_EQ(figure.title.find("e+"), std::string::npos) << figure.title;
-    EXPECT_EQ(figure.title.ends_with("between 0.110\u00A0m and 0.220\u00A0m"),
-              study.results.are_repeats)
+    EXPECT_EQ(
+        figure.title.ends_with("between 0.110\u00A0m and 0.220\u00A0m; odometry over 1\u00A0km"),
+        study.results.are_repeats)
         << figure.title;
   }
+}
+
+TEST(ResultsFigures, TitlesWithTheRangeOfFewRunsSayWhatDiverged) {
+  Rows rows;
+  for (const double noise : {0.1, 0.2})
+    for (const char* run : {"a1", "b1"})
+      rows.add("ekf", run, noise, {{"noise", noise}})
+          .add("odometry", run, 1e7 * noise, {{"noise", noise}});
+  const ResultsStudy study = rows.study();
+  const std::string title =
+      results_figures(ResultsView(study), {}).groups.at(0).figures.at(0).title;
+  EXPECT_NE(title.find("MPE between 0.100\u00A0m and 0.200\u00A0m; odometry over 1\u00A0km"),
+            std::string::npos)
+      << title;
 }
 
 TEST(ResultsFigures, TitlesJudgeAsThePairedTestsOfTheSentences) {

@@ -427,6 +427,18 @@ std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& q
                      with_unit(data_number(last.front().x()), axis.unit));
 }
 
+std::string diverged_words(const std::vector<ErrorLine>& lines, const LineQuantity& quantity) {
+  std::set<std::string> diverged, others;
+  for (const At& at : all_known(lines))
+    (quantity.has_diverged(at.mean()) ? diverged : others).insert(line_name(*at.line, lines));
+  if (diverged.empty() || others.empty()) return "";
+  const bool are_in_part =
+      std::ranges::any_of(diverged, [&](const std::string& name) { return others.contains(name); });
+  return fmt::format(
+      "{} {}{}", diverged.size() == 1 ? *diverged.begin() : counted(std::ssize(diverged), "method"),
+      kGreatErrorText, are_in_part ? " at some points" : "");
+}
+
 bool ends_tie(const ErrorLine& line) {
   const std::vector<ErrorLine> alone = {line};
   const std::vector<At> known = all_known(alone);

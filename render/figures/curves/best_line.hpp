@@ -59,6 +59,11 @@ std::size_t ties_at_end(const std::vector<ErrorLine>& lines, const LineQuantity&
 std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& quantity,
                       const LineAxis& axis);
 
+/// "odometry over 1 km", "2 methods over 1 km at some points": what a title that gives the range of
+/// the other values says of lines that diverged; those of one label, as of several panels, are one.
+/// Empty if none did, or if all values did.
+std::string diverged_words(const std::vector<ErrorLine>& lines, const LineQuantity& quantity);
+
 /// Whether the intervals of a line's first and last known values overlap.
 bool ends_tie(const ErrorLine& line);
 

@@ -317,8 +317,8 @@ std::string course_of_one(const KnownValues& known, const Place& place) {
 }
 
 /// What lines do where none of them is called the best: of one, see course_of_one(); of several,
-/// why they are not ranked and between which values they lie; of tiny distances, how much they are
-/// at most; of what is aimed at, the aim. Empty if nothing is known.
+/// why they are not ranked, between which values they lie and which diverged; of tiny distances,
+/// how much they are at most; of what is aimed at, the aim. Empty if nothing is known.
 /// @param unit         Of the lines' values.
 /// @param great_errors  See ResultsView::has_great_errors().
 /// @param x_label      Of the axis of one line.
@@ -347,6 +347,7 @@ std::string course_of(const std::vector<ErrorLine>& lines, const Quantity& quant
     return in_sentence(quantity.label) + " " + course_of_one(values, place);
   }
   known = without_diverged(std::move(known), divergence_in(unit, great_errors));
+  const std::string diverged = diverged_words(lines, {.unit = unit, .great_errors = great_errors});
   const auto [least, greatest] = std::ranges::minmax(known);
   const std::string span = words(least) == words(greatest)
                                ? words(least)
@@ -354,8 +355,8 @@ std::string course_of(const std::vector<ErrorLine>& lines, const Quantity& quant
   if (const auto aim = aim_of(quantity))
     return fmt::format("{} {}, aimed at {}", in_sentence(quantity.label), span,
                        with_unit(data_number(*aim), unit));
-  return fmt::format("{}{} {}", has_better_side(quantity) ? not_ranked : "",
-                     in_sentence(quantity.label), span);
+  return fmt::format("{}{} {}{}", has_better_side(quantity) ? not_ranked : "",
+                     in_sentence(quantity.label), span, diverged.empty() ? "" : "; " + diverged);
 }
 
 /// The label of the curve that shows a line; empty if none does.

@@ -152,10 +152,12 @@ std::optional<Figure> runs_figure(const ResultsView& view, const ResultsBlock& b
                                   const Quantity& quantity) {
   if (view.lines(block, quantity).size() < 2) return std::nullopt;
   std::vector<double> medians;
+  std::vector<ErrorLine> of_methods;
   ValueDotsSpec spec =
       dots_of(view, block, quantity, [&](const Condition& at, const ResultsLine& line) {
         MethodValue method{.runs = numbers_of(view, at, line, quantity)};
         medians.push_back(method.value = median(method.runs));
+        of_methods.push_back({.label = line.label, .key = "", .x = {0.0}, .mean = {method.value}});
         return method;
       });
   if (medians.empty()) return std::nullopt;
@@ -168,9 +170,12 @@ std::optional<Figure> runs_figure(const ResultsView& view, const ResultsBlock& b
   const auto words = [&](double median) {
     return value_words(median, quantity.unit, spec.great_errors);
   };
-  spec.title = fmt::format("{}: {}the median {} is between {} and {}", block.title,
-                           has_better_side(quantity) ? kTooFewRuns : "",
-                           in_sentence(quantity.label), words(least), words(greatest));
+  const std::string diverged =
+      diverged_words(of_methods, {.unit = quantity.unit, .great_errors = spec.great_errors});
+  spec.title =
+      fmt::format("{}: {}the median {} is between {} and {}{}", block.title,
+                  has_better_side(quantity) ? kTooFewRuns : "", in_sentence(quantity.label),
+                  words(least), words(greatest), diverged.empty() ? "" : "; " + diverged);
   return value_dots_figure(spec);
 }
 
