@@ -11,9 +11,6 @@
 namespace mapproof {
 namespace {
 
-/// A ratio below which both errors count as nothing.
-constexpr double kLeastError = 1e-9;
-
 /// The p that ranks have to be able to give, of all tests together: a tenth of the level of a
 /// nightly run.
 constexpr double kFinestP = 1e-4;

@@ -29,7 +29,11 @@ struct RunChange {
 /// ratio.
 bool changes_in_points(const Quantity& quantity);
 
-/// The change of a value: a difference, or the logarithm of a ratio, in which 1e-9 stands for less.
+/// Below it an error counts as nothing: in ratios this stands for it.
+inline constexpr double kLeastError = 1e-9;
+
+/// The change of a value: a difference, or the logarithm of a ratio, in which kLeastError stands
+/// for less.
 double value_change(bool in_points, double before, double after);
 
 /// Changes that are independent of each other.

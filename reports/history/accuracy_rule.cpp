@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <set>
 #include <span>
 #include <tuple>
@@ -28,7 +29,8 @@ using Family = std::tuple<std::string, std::string, std::string>;
 /// By how much values got worse, in ascending order of the runs, those of one run step by step.
 struct RunDifferences {
   std::vector<RunChange> changes = {};
-  bool differ = false;  ///< One by more than rounding may.
+  bool differ = false;     ///< One by more than rounding may.
+  bool from_zero = false;  ///< One grew from 0: its ratio is that to kLeastError.
 };
 
 /// What one test is of.
@@ -39,6 +41,7 @@ struct Comparison {
   const Quantity* quantity = nullptr;
   PairedUnits units = {};            ///< By how much each got worse.
   bool has_steps = false;            ///< The medians are of the last.
+  bool from_zero = false;            ///< A run's value grew from 0: there is no percentage.
   double before = 0.0, after = 0.0;  ///< Medians.
 };
 
@@ -77,9 +80,12 @@ void add_step(RunDifferences& differences, Losses& losses, const Quantity& quant
     losses.lost += had && !has;
     losses.gained += !had && has;
     if (!had || !has) continue;
-    const double change = value_change(changes_in_points(quantity), old.value, now->value);
+    const bool in_points = changes_in_points(quantity);
+    const double change = value_change(in_points, old.value, now->value);
     differences.changes.push_back({old.run, old.unit, worse * change});
     differences.differ = differences.differ || !quantity.rounding.holds(old.value, now->value);
+    differences.from_zero =
+        differences.from_zero || (!in_points && old.value < kLeastError && change > 0.0);
   }
   for (const RunValue& now : after)
     losses.gained += std::isfinite(now.value) && find_run(before, now.run) == nullptr;
@@ -113,6 +119,7 @@ void add_family(Work& work, const StudyEvidence& evidence,
     if (!has_steps) continue;
     all.changes.insert(all.changes.end(), last.changes.begin(), last.changes.end());
     all.differ = all.differ || last.differ;
+    all.from_zero = all.from_zero || last.from_zero;
   }
   const auto add = [&](RunDifferences differences, const std::string& subject,
                        const std::string& shown_as) {
@@ -123,7 +130,8 @@ void add_family(Work& work, const StudyEvidence& evidence,
         .method = method,
         .quantity = &quantity,
         .units = paired_units(std::move(differences.changes), evidence.draws_groups),
-        .has_steps = steps.back()->step != 0};
+        .has_steps = steps.back()->step != 0,
+        .from_zero = differences.from_zero};
     comparison.before = known_median(evidence.reference->scores.at(*steps.back()));
     comparison.after = known_median(evidence.this_run.at(*steps.back()));
     if (std::cmp_less(comparison.units.changes.size(), kLeastUnits))
@@ -238,6 +246,33 @@ std::string interval_words(const Quantity& quantity, const PairedChange& change)
                      in_points ? "points" : "%");
 }
 
+const char* worse_word(const Quantity& quantity) {
+  return quantity.better == Better::kHigher ? "lower" : "higher";
+}
+
+/// "12 % higher": of a change of a level, in percent or points.
+std::string amount_words(const Quantity& quantity, double worsening) {
+  return quantity.nightly == NightlyRule::kRatio
+             ? fmt::format("{:.1f}\u00a0% {}", worse_percent(quantity, worsening),
+                           worse_word(quantity))
+             : change_words(worsening, false, worse_word(quantity));
+}
+
+/// In percent or points, with the sign of the change of the values.
+double signed_amount(const Quantity& quantity, double worsening) {
+  const double amount =
+      quantity.nightly == NightlyRule::kRatio ? worse_percent(quantity, worsening) : worsening;
+  return quantity.better == Better::kHigher ? -amount : amount;
+}
+
+/// In how many units, or in pairs with which interval.
+std::string pairs_words(const Comparison& comparison, const PairedChange& change,
+                        const std::string& units) {
+  if (change.equal) return "in each of " + units;
+  const std::string pairs = fmt::format("in pairs of {}s", comparison.units.unit);
+  return comparison.from_zero ? pairs : pairs + ", " + interval_words(*comparison.quantity, change);
+}
+
 NightlyFinding finding_of(const Comparison& comparison, const PairedChange& change, double p,
                           std::size_t tests, const StudyEvidence& evidence) {
   const Quantity& quantity = *comparison.quantity;
@@ -254,14 +289,14 @@ NightlyFinding finding_of(const Comparison& comparison, const PairedChange& chan
           .quantity = quantity.id,
           .since = evidence.trend.nightly_runs.back().number,
           .sentence = fmt::format(
-              "{}: {} {} than in nightly run {}{}; median {} → {}{}; {}", comparison.shown,
-              quantity.label, worse_words(quantity, change.shift), evidence.reference->nightly_run,
-              change.equal ? " in each of " + units
-                           : fmt::format(" in pairs of {}s, {}", comparison.units.unit,
-                                         interval_words(quantity, change)),
+              "{}: {} {} than in nightly run {} {}; median {} → {}{}; {}", comparison.shown,
+              quantity.label,
+              comparison.from_zero ? worse_word(quantity) : amount_words(quantity, change.shift),
+              evidence.reference->nightly_run, pairs_words(comparison, change, units),
               significant(comparison.before), quantity_text(comparison.after, quantity.unit),
               comparison.has_steps ? " at the last step" : "", test),
-          .change = change_of(quantity, change.shift)};
+          .change = comparison.from_zero ? std::nullopt
+                                         : std::optional(signed_amount(quantity, change.shift))};
 }
 
 NightlyFinding finding_of(const Losses& losses, double p, const StudyEvidence& evidence) {
@@ -338,16 +373,16 @@ std::string change_words(double change, bool ratio, const std::string& word) {
                : fmt::format("{:.2f}\u00a0points {}", change, word);
 }
 
-double change_of(const Quantity& quantity, double worsening) {
-  const double change =
-      quantity.nightly == NightlyRule::kRatio ? worse_percent(quantity, worsening) : worsening;
-  return quantity.better == Better::kHigher ? -change : change;
+std::optional<double> change_of(const Quantity& quantity, double before, double worsening) {
+  if (is_level_of_zero(quantity, before)) return std::nullopt;
+  return signed_amount(quantity, worsening);
 }
 
-std::string worse_words(const Quantity& quantity, double worsening) {
-  const char* word = quantity.better == Better::kHigher ? "lower" : "higher";
-  if (quantity.nightly != NightlyRule::kRatio) return change_words(worsening, false, word);
-  return fmt::format("{:.1f}\u00a0% {}", worse_percent(quantity, worsening), word);
+std::string worse_words(const Quantity& quantity, double before, double worsening) {
+  if (is_level_of_zero(quantity, before))
+    return fmt::format("{} {}", quantity_text(std::exp(before + worsening), quantity.unit),
+                       worse_word(quantity));
+  return amount_words(quantity, worsening);
 }
 
 RuleOutcome judge_accuracy(const StudyEvidence& evidence, const RegressionRules& rules) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "reports/history/nightly_run.hpp"
@@ -18,12 +19,13 @@ RuleOutcome judge_accuracy(const StudyEvidence& evidence, const RegressionRules&
 std::string change_words(double change, bool ratio, const std::string& word);
 
 /// By how much values changed: in percent, or in points of what is judged by points; the sign is
-/// that of the change of the values.
-/// @param worsening  Of a level (see level_of).
-double change_of(const Quantity& quantity, double worsening);
+/// that of the change of the values. Nothing of what was 0.
+/// @param before     A level (see level_of).
+/// @param worsening  Of the level.
+std::optional<double> change_of(const Quantity& quantity, double before, double worsening);
 
 /// The same of a change for the worse of a level (see level_of): "12 % higher", or "lower" of what
-/// is better if it is higher.
-std::string worse_words(const Quantity& quantity, double worsening);
+/// is better if it is higher; "0.00400 m higher" of what was 0.
+std::string worse_words(const Quantity& quantity, double before, double worsening);
 
 }  // namespace mapproof

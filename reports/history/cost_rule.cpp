@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -109,23 +110,26 @@ NightlyFinding finding_of(const NightlySeries& series, const Limit& limit, const
       series.quantity == "memory" ? "peak memory" : trend.quantities.at(series.quantity).label;
   const bool is_error = series.rule == HistoryRule::kAccuracy;
   const auto words = [&](double worsening) {
-    return is_error ? worse_words(trend.quantities.at(series.quantity), worsening)
+    return is_error ? worse_words(trend.quantities.at(series.quantity), limit.usual, worsening)
                     : change_words(worsening, series.ratio, word);
   };
   const double worsening = series.values.back() - limit.usual;
-  return {
-      .study = trend.name,
-      .rule = series.rule,
-      .subject = series.subject,
-      .quantity = series.quantity,
-      .since = since,
-      .sentence = fmt::format(
-          "{}: {} {} than usual in {} passing nightly runs, where the limit is {}{}", series.shown,
-          label, words(worsening), limit.nightly_runs, words(limit.most - limit.usual),
-          since == trend.nightly_runs.back().number ? ""
-                                                    : fmt::format("; since nightly run {}", since)),
-      .change = is_error ? change_of(trend.quantities.at(series.quantity), worsening)
-                         : 100.0 * std::expm1(worsening)};
+  const std::optional<double> change =
+      is_error ? change_of(trend.quantities.at(series.quantity), limit.usual, worsening)
+               : std::optional(100.0 * std::expm1(worsening));
+  return {.study = trend.name,
+          .rule = series.rule,
+          .subject = series.subject,
+          .quantity = series.quantity,
+          .since = since,
+          .sentence =
+              fmt::format("{}: {} {} than usual in {} passing nightly runs{}{}", series.shown,
+                          label, words(worsening), limit.nightly_runs,
+                          change ? ", where the limit is " + words(limit.most - limit.usual) : "",
+                          since == trend.nightly_runs.back().number
+                              ? ""
+                              : fmt::format("; since nightly run {}", since)),
+          .change = change};
 }
 
 /// The index of the last nightly run before this one that has a value and was made on the same

@@ -127,7 +127,12 @@ void show_median(const NightlyFinding& finding, const StudyTrend& trend, int nig
   if (!group.medians) return;
   const double change = median_change(trend.quantities.at(series->quantity), group.medians->before,
                                       group.medians->after);
-  if (std::isfinite(change)) group.changes = {change};
+  if (std::isfinite(change)) {
+    group.changes = {change};
+  } else {
+    group.changes.clear();
+    group.from_zero = {*group.medians};
+  }
 }
 
 /// One finding as a group.
@@ -172,7 +177,7 @@ bool is_same(const FindingGroup& a, const FindingGroup& b) {
   };
   const bool both_known = a.known.has_value() == b.known.has_value();
   return both_known && key(a) == key(b) && (!a.known || a.known->text == b.known->text) &&
-         a.settings.empty() == b.settings.empty();
+         a.settings.empty() == b.settings.empty() && a.from_zero.empty() == b.from_zero.empty();
 }
 
 /// Of several methods without settings the names of all.
@@ -351,9 +356,31 @@ std::string commit_url(const std::string& repository, const std::string& commit)
   return repository + "/commit/" + commit;
 }
 
+namespace {
+
+/// "0.1", "between 0.1 and 0.2": the least and the greatest of numbers as they are shown.
+std::string span_text(const std::vector<double>& values) {
+  const auto [least, greatest] = std::ranges::minmax(values);
+  const std::string low = significant(least), high = significant(greatest);
+  return low == high ? low : "between " + low + " and " + high;
+}
+
+/// "from 0 to 0.00400 m", "from 0 to between 0.00400 and 0.00500 m".
+std::string from_to_text(const std::vector<MedianPair>& medians, const std::string& unit) {
+  std::vector<double> before, after;
+  for (const MedianPair& pair : medians) {
+    before.push_back(pair.before);
+    after.push_back(pair.after);
+  }
+  return fmt::format("from {} to {}", span_text(before), with_unit(span_text(after), unit));
+}
+
+}  // namespace
+
 std::string FindingGroup::change_text() const {
   if (rule == HistoryRule::kLostResults) return quantity + ": results are lost";
   const std::string subject = over_steps ? quantity + " over all steps" : quantity;
+  if (!from_zero.empty()) return subject + " " + from_to_text(from_zero, unit);
   if (changes.empty()) return subject + " got worse";
   const auto [least, most] = std::ranges::minmax(changes);
   const std::string low = amount(least), high = amount(most);
@@ -383,7 +410,7 @@ std::string FindingGroup::change_of_settings() const {
 std::string FindingGroup::headline() const { return method + ": " + change_of_settings(); }
 
 std::string FindingGroup::values_text() const {
-  if (numbers.size() > 1 || !medians) return "";
+  if (numbers.size() > 1 || !medians || !from_zero.empty()) return "";
   return fmt::format("median {} → {}", significant(medians->before),
                      quantity_text(medians->after, unit));
 }
@@ -427,6 +454,7 @@ std::vector<FindingGroup> grouped(int nightly_run, std::span<const NightlyFindin
     }
     append(same->settings, group.settings);
     append(same->changes, group.changes);
+    append(same->from_zero, group.from_zero);
     append(same->numbers, group.numbers);
     append(same->sentences, group.sentences);
     append(same->lines, group.lines);

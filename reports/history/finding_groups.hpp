@@ -77,6 +77,9 @@ struct FindingGroup {
   /// Of each finding that has one: by rule kAccuracy the change of the median at the last step, as
   /// figures and tables show it; else NightlyFinding::change.
   std::vector<double> changes = {};
+  /// Likewise of each whose median was 0, so that its change has no percentage; these are groups of
+  /// their own.
+  std::vector<MedianPair> from_zero = {};
   bool in_points = false;            ///< The changes are in points rather than in percent.
   bool higher_is_better = false;     ///< A change for the worse is below 0.
   bool over_steps = false;           ///< The findings are about the mean over the steps.
@@ -92,7 +95,8 @@ struct FindingGroup {
   CommitRange commits = {};
 
   /// "MPE +17.6 %", "seconds +12.0 to +14.1 %", "results are lost"; of an error that got worse in
-  /// pairs of runs alone "MPE got worse in pairs of runs, its median −0.3 %".
+  /// pairs of runs alone "MPE got worse in pairs of runs, its median −0.3 %"; of one that was 0
+  /// "MPE from 0 to 0.00400 m".
   std::string change_text() const;
   /// Whether the method has three settings or more, and all of them are here.
   bool has_all_settings() const;
@@ -100,12 +104,14 @@ struct FindingGroup {
   std::string change_of_settings() const;
   /// "ISOMAP: MPE +17.6 % (K = 6 and 8)".
   std::string headline() const;
-  /// "median 0.0857 → 0.0985 m" of a single finding that has medians; else empty.
+  /// "median 0.0857 → 0.0985 m" of a single finding that has medians, unless change_text() says
+  /// them; else empty.
   std::string values_text() const;
   /// "2 findings"; empty for one.
   std::string count_text() const;
   /// By how much it got worse, the largest of its changes, in units of the least change that a rule
-  /// for accuracy finds: percent and points on one scale. Infinite if results are lost.
+  /// for accuracy finds: percent and points on one scale. Infinite if results are lost, 0
+  /// of what has no percentage.
   double worsening() const;
 };
 

@@ -56,7 +56,7 @@ void fields(Visitor& v, NightlyFinding& finding) {
   v.field("sentence", finding.sentence, {.description = "For readers, with numbers."});
   v.field("change", finding.change,
           {.description = "Of the value, in percent of what it was, or in points of what is judged "
-                          "by points; null: results are lost."});
+                          "by points; null: results are lost, or the value was 0."});
 }
 
 /// The fields of a nightly run, in either file.

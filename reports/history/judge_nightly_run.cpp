@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/statistics/robust_noise.hpp"
 #include "core/statistics/signed_rank.hpp"
@@ -77,11 +79,14 @@ NightlyFinding finding_of(const Known& known, double p, std::size_t tests,
                           const StudyTrend& trend) {
   const NightlySeries& series = known.series;
   const bool accuracy = series.rule == HistoryRule::kAccuracy;
+  const std::vector<double> before(known.values.begin(),
+                                   known.values.begin() + std::max(1, known.change.first));
   const int since = known.nightly_runs[static_cast<std::size_t>(known.change.first)];
   const std::string change =
-      accuracy ? worse_words(trend.quantities.at(series.quantity), known.change.rise)
-               : change_words(known.change.rise, series.ratio,
-                              series.quantity == "seconds" ? "slower" : "higher");
+      accuracy
+          ? worse_words(trend.quantities.at(series.quantity), median(before), known.change.rise)
+          : change_words(known.change.rise, series.ratio,
+                         series.quantity == "seconds" ? "slower" : "higher");
   const std::string label =
       series.quantity == "memory" ? "peak memory" : trend.quantities.at(series.quantity).label;
   return {.study = trend.name,
@@ -94,8 +99,9 @@ NightlyFinding finding_of(const Known& known, double p, std::size_t tests,
                                   series.shown, label, change, since,
                                   known.change.gradual ? "a slow drift" : "a step",
                                   small_p_words(p), tests, known.values.size()),
-          .change = accuracy ? change_of(trend.quantities.at(series.quantity), known.change.rise)
-                             : 100.0 * std::expm1(known.change.rise)};
+          .change = accuracy ? change_of(trend.quantities.at(series.quantity), median(before),
+                                         known.change.rise)
+                             : std::optional(100.0 * std::expm1(known.change.rise))};
 }
 
 /// Rises at an unknown nightly run, by rise_in(), of all of these over the nightly runs of the

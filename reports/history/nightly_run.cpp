@@ -10,7 +10,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/statistics/intervals.hpp"
+#include "core/statistics/paired_runs.hpp"
 
 namespace mapproof {
 namespace {
@@ -116,11 +116,12 @@ double percent_change(double before, double after) {
 }
 
 double median_change(const Quantity& quantity, double before, double after) {
-  return quantity.nightly == NightlyRule::kPoints ? after - before : percent_change(before, after);
+  if (quantity.nightly == NightlyRule::kPoints) return after - before;
+  const bool was_zero = quantity.nightly == NightlyRule::kRatio && before < kLeastError;
+  return was_zero ? kNaN : percent_change(before, after);
 }
 
 double level_of(const Quantity& quantity, const std::vector<RunValue>& values) {
-  constexpr double kLeastError = 1e-9;
   const bool ratio = quantity.nightly == NightlyRule::kRatio;
   double sum = 0.0;
   int count = 0;
@@ -132,6 +133,12 @@ double level_of(const Quantity& quantity, const std::vector<RunValue>& values) {
   }
   if (count == 0) return kNaN;
   return (quantity.better == Better::kHigher ? -sum : sum) / count;
+}
+
+bool is_level_of_zero(const Quantity& quantity, double level) {
+  // Twice as much is nothing as well, and the mean of logarithms is rounded.
+  return quantity.nightly == NightlyRule::kRatio && quantity.better != Better::kHigher &&
+         level < std::log(2.0 * kLeastError);
 }
 
 }  // namespace mapproof

@@ -105,7 +105,8 @@ struct NightlyFinding {
   std::string sentence = {};  ///< With numbers.
   /// By how much the value changed as the rule estimates it (pages show the change of the median
   /// where they can, see FindingGroup): in percent of what it was, or in points of a quantity that
-  /// is judged by points. Its sign is that of the value's change. Empty: results are lost.
+  /// is judged by points. Its sign is that of the value's change. Empty: results are lost, or
+  /// the value was 0, so that its change has no percentage.
   std::optional<double> change = {};
 };
 
@@ -171,13 +172,17 @@ double known_median(const std::vector<RunValue>& values);
 double percent_change(double before, double after);
 
 /// By how much the median of a quantity changed, as figures, tables and words of pages show it: in
-/// percent, or as a difference of what is judged by points.
+/// percent, or as a difference of what is judged by points; NaN of an error that was 0 (below
+/// kLeastError), whose change has no percentage.
 double median_change(const Quantity& quantity, double before, double after);
 
-/// The mean over the runs of the logarithm of a quantity that is judged by ratio, 1e-9 for less;
-/// of any other its mean; of a quantity that is better if higher, the negative of these. Runs
+/// The mean over the runs of the logarithm of a quantity that is judged by ratio, kLeastError for
+/// less; of any other its mean; of a quantity that is better if higher, the negative of these. Runs
 /// differ far more than nightly runs do: a median would depend on one of them. NaN without any.
 double level_of(const Quantity& quantity, const std::vector<RunValue>& values);
+
+/// Whether the errors of a level_of() were 0: a change from it has no percentage.
+bool is_level_of_zero(const Quantity& quantity, double level);
 
 /// How nightly runs judge a series: by the rule of its quantity; but a quantity that stands in for
 /// another is only kept where `all`, a map by SeriesId, has the other as well.

@@ -450,20 +450,46 @@ bool has_room_for_names(const std::vector<ErrorLine>& lines) {
          ends.end();
 }
 
+/// The changes of the medians of a line since the nightly run that they are shown against.
+std::vector<double> median_changes(const Reported& reported, const Quantity& quantity,
+                                   const Line& line) {
+  return changes_of(*line.values, reported.base, [&](double before, double after) {
+    return median_change(quantity, before, after);
+  });
+}
+
+/// Takes out the lines whose changes have no percentage, and names them; nothing if there are none.
+std::vector<Note> leave_out_from_zero(const Reported& reported, const Quantity& quantity,
+                                      std::vector<Line>& lines) {
+  std::vector<std::string> left_out;
+  std::erase_if(lines, [&](const Line& line) {
+    if (count_known(median_changes(reported, quantity, line)) > 0) return false;
+    left_out.push_back(shown_method(reported.trend.labels, line.id.method));
+    return true;
+  });
+  constexpr std::size_t kMostNamed = 3;
+  if (left_out.empty()) return {};
+  return {{fmt::format("Started at 0, so that changes have no percentage: {}.",
+                       listed(left_out, kMostNamed)),
+           ThemeColour::kMuted}};
+}
+
 std::optional<Figure> lines_figure(const Reported& reported, const std::string& sensor,
                                    const std::string& quantity) {
-  const std::vector<Line> lines = shown_settings(reported, sensor, quantity);
+  std::vector<Line> lines = shown_settings(reported, sensor, quantity);
   const Quantity& facts = reported.trend.quantities.at(quantity);
   if (!has_course(reported, lines, facts)) return std::nullopt;
   const bool by_ratio =
       facts.nightly == NightlyRule::kRatio || facts.nightly == NightlyRule::kDuration;
-  const bool changes = by_ratio || facts.nightly == NightlyRule::kPoints;
+  // Where no change has a percentage, values are shown.
+  const bool changes = (by_ratio || facts.nightly == NightlyRule::kPoints) &&
+                       std::ranges::any_of(lines, [&](const Line& line) {
+                         return count_known(median_changes(reported, facts, line)) > 0;
+                       });
+  std::vector<Note> notes;
+  if (changes) notes = leave_out_from_zero(reported, facts, lines);
   const auto shown_of = [&](const Line& line) {
-    return changes ? changes_of(*line.values, reported.base,
-                                [&](double before, double after) {
-                                  return median_change(facts, before, after);
-                                })
-                   : *line.values;
+    return changes ? median_changes(reported, facts, line) : *line.values;
   };
   std::vector<double> last;
   for (const Line& line : lines)
@@ -472,7 +498,8 @@ std::optional<Figure> lines_figure(const Reported& reported, const std::string& 
                                    course_of(reported, sensor, facts, last));
   spec.y_label = changes ? fmt::format("change of {} [{}]", facts.label, by_ratio ? "%" : "points")
                          : label_with_unit(facts);
-  if (changes) spec.log_from = kInfinity;
+  spec.notes = std::move(notes);
+  if (changes || is_accuracy(facts.nightly)) spec.log_from = kInfinity;
   spec.quantity = changes ? "change of " + facts.label : facts.label;
   spec.caption = fmt::format(
       "Lines: median over runs of {}{}{}, of each method the setting that was best over these "

@@ -1,12 +1,15 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/records/studies/results_study_json.hpp"
+#include "reports/history/accuracy_rule.hpp"
 #include "reports/history/judge_nightly_run.hpp"
 #include "reports/history/nightly_scores.hpp"
 #include "reports/history/pages/history_tables.hpp"
@@ -199,6 +202,44 @@ TEST(ForeignNightlyRuns, EqualChangesOfFewGroupsHaveNoPAndNoInterval) {
   EXPECT_EQ(sentence_of(5, [](int) { return 1.15; }),
             "indoors, alpha, noise 0.1: ATE 15.0\u00a0% higher than in nightly run 1 in each of 5 "
             "groups; median 0.219 → 0.252\u00a0m; the changes are equal, so that no p is given");
+}
+
+TEST(ForeignNightlyRuns, AnErrorThatWas0HasNoPercentage) {
+  const TemporaryFolder folder;
+  HistoryStore store = HistoryStore::open(folder.path());
+  NightlyRun last;
+  for (int number = 1; number <= 2; ++number) {
+    ForeignNightlyRun plan;
+    plan.factor = [&](const SeriesId& series, int) {
+      const bool is_it = series.method == "gamma noise=0.1" && series.quantity == "ate_m";
+      return !is_it ? 1.0 : number == 1 ? 0.0 : 0.02;
+    };
+    last = nightly_of(number, plan);
+    judge_nightly_run(store, last, std::nullopt);
+    store.append(last);
+  }
+  ASSERT_EQ(last.findings.size(), 1U);
+  const NightlyFinding& one = last.findings[0];
+  EXPECT_TRUE(
+      one.sentence.starts_with("indoors, gamma, noise 0.1: ATE higher than in nightly run 1 in "
+                               "pairs of groups; median 0 → "))
+      << one.sentence;
+  EXPECT_EQ(one.sentence.find('%'), std::string::npos) << one.sentence;
+  EXPECT_EQ(one.change, std::nullopt);
+}
+
+TEST(ForeignNightlyRuns, AMetricThatWas0HasNoPercentage) {
+  NightlyRun nightly_run = nightly_of(1);
+  const Quantities& quantities = nightly_run.studies[0].quantities;
+  const Quantity& ate = quantities.at("ate_m");
+  const double zero = level_of(ate, {{"a", "a", 0.0}, {"b", "b", 0.0}, {"c", "c", 0.0}});
+  const double worsening = level_of(ate, {{"a", "a", 0.004}}) - zero;
+  EXPECT_EQ(worse_words(ate, zero, worsening), "0.00400\u00a0m higher");
+  EXPECT_EQ(change_of(ate, zero, worsening), std::nullopt);
+  EXPECT_EQ(worse_words(ate, std::log(0.1), std::log(1.2)), "20.0\u00a0% higher");
+  EXPECT_NEAR(change_of(ate, std::log(0.1), std::log(1.2)).value(), 20.0, 1e-9);
+  const Quantity& found = quantities.at("found");
+  EXPECT_EQ(worse_words(found, 0.0, 2.0), "2.00\u00a0points lower") << "a level of 0 points";
 }
 
 TEST(ForeignNightlyRuns, AnIntervalIsNotFromAValueToTheSame) {

@@ -223,6 +223,50 @@ TEST(FindingGroups, StateTheChangeOfTheMedianAsFiguresAndTablesDo) {
   EXPECT_EQ(change(), "MPE over all steps +17.6\u00a0%");
 }
 
+TEST(FindingGroups, OfAnErrorThatWas0HaveItsValuesForAPercentageAndComeAfterThose) {
+  StudyTrend trend = two_settings();
+  trend.medians[{"bearing", "isomap-K6", 150, "mpe_m"}] = {0.0, 0.0, 0.004};
+  trend.medians[{"bearing", "isomap-K8", 150, "mpe_m"}] = {0.0, 0.0, 0.004};
+  trend.medians[{"bearing", "lpca", 150, "mpe_m"}] = {0.20, 0.20, 0.21};
+  std::vector<NightlyFinding> findings = two_findings();
+  findings[0].change = 399999900.0;  // As older histories have it.
+  findings[1].change.reset();
+  findings.push_back(findings[1]);
+  findings[2].subject = "bearing, lpca, 150 steps";
+  const auto groups = [&] { return grouped(3, findings, std::span(&trend, 1), {}); };
+  ASSERT_EQ(groups().size(), 2U);
+  EXPECT_EQ(groups()[0].headline(), "LPCA: MPE +5.0\u00a0%");
+  EXPECT_EQ(groups()[1].headline(), "ISOMAP: MPE from 0 to 0.00400\u00a0m (K = 6 and 8)");
+  trend.medians[{"bearing", "isomap-K8", 150, "mpe_m"}].back() = 0.005;
+  EXPECT_EQ(groups()[1].change_text(), "MPE from 0 to between 0.00400 and 0.00500\u00a0m");
+  findings.erase(findings.begin());
+  EXPECT_EQ(groups()[1].values_text(), "") << "the headline has them";
+}
+
+TEST(HistoryPages, NameInANoteWhatStartedAt0AndDrawItsValuesWhereThereIsNothingElse) {
+  StudyTrend trend = two_settings();
+  trend.medians[{"bearing", "lpca", 150, "mpe_m"}] = {0.0, 0.0, 0.004};
+  std::vector<NightlyFinding> findings = {two_findings()[0]};
+  findings[0].subject = "bearing, lpca, 150 steps";
+  const auto figure = [&] { return trend_figures(trend, {{3, findings}}).front(); };
+  const auto labels = [](const Figure& one) {
+    std::vector<std::string> all;
+    for (const Layer& layer : one.panels.at(0).layers)
+      if (std::holds_alternative<Polyline>(layer)) all.push_back(label_of(layer));
+    return all;
+  };
+  ASSERT_EQ(figure().notes.size(), 1U);
+  EXPECT_EQ(figure().notes[0].text, "Started at 0, so that changes have no percentage: LPCA.");
+  EXPECT_EQ(labels(figure()), std::vector<std::string>{"ISOMAP, K = 6"});
+  EXPECT_EQ(figure().alt.find("nothing known"), std::string::npos) << figure().alt;
+
+  std::erase_if(trend.medians, [](const auto& of) { return of.first.method != "lpca"; });
+  EXPECT_EQ(figure().title, "Bearing: LPCA: MPE from 0 to 0.00400\u00a0m");
+  EXPECT_TRUE(figure().notes.empty());
+  EXPECT_EQ(figure().panels.at(0).y.label, "MPE [m]");
+  EXPECT_EQ(labels(figure()), std::vector<std::string>{"LPCA"});
+}
+
 TEST(FindingGroups, AreShownAgainstTheNightlyRunBeforeTheyBegan) {
   StudyTrend trend = two_settings();
   trend.nightly_runs.back().reference = 2;
