@@ -75,22 +75,38 @@ std::vector<const FindingGroup*> groups_of(std::span<const FindingGroup> groups,
   return of_study;
 }
 
+/// Between which nightly runs the groups got worse whose sentences do not say it.
+/// @param shown   The groups that have a sentence.
+/// @param others  Those that are only counted.
+std::string shared_words(std::span<const FindingGroup* const> shown,
+                         std::span<const FindingGroup* const> others, const CommitRange& shared) {
+  const auto is_of_range = [&](const FindingGroup* group) {
+    return is_same_range(group->commits, shared);
+  };
+  const bool are_others = std::ranges::all_of(others, is_of_range);
+  std::string which;
+  if (std::ranges::all_of(shown, is_of_range))
+    which = are_others ? "All of these" : fmt::format("These {}", shown.size());
+  else
+    which = are_others ? "The others" : "The others named here";
+  return fmt::format("{} got worse {}.", which, range_words(shared));
+}
+
 /// Adds the first groups of each study; a single group beyond kMostReported has its own sentence,
 /// since the one that counts it would be as long.
 /// @param names_study  Whether each sentence begins with the study.
 void add_findings(std::span<const FindingGroup> groups, std::span<const std::string> studies,
                   bool names_study, NightlyLinks& links, Standing& standing) {
   const std::size_t all = count_findings(groups, false);
-  std::vector<const FindingGroup*> shown;
+  std::vector<const FindingGroup*> shown, others;
   for (const std::string& study : studies) {
     const std::vector<const FindingGroup*> of_study = groups_of(groups, study);
     const std::size_t most = of_study.size() == kMostReported + 1 ? of_study.size() : kMostReported;
     std::size_t more = 0;
-    for (std::size_t i = 0; i < of_study.size(); ++i)
-      if (i < most)
-        shown.push_back(of_study[i]);
-      else
-        more += of_study[i]->numbers.size();
+    for (std::size_t i = 0; i < of_study.size(); ++i) {
+      (i < most ? shown : others).push_back(of_study[i]);
+      if (i >= most) more += of_study[i]->numbers.size();
+    }
     if (more > 0)
       standing.rest.push_back(
           {{phrase(fmt::format("{} {}, among ", names_study ? study + ": and" : "And",
@@ -101,11 +117,7 @@ void add_findings(std::span<const FindingGroup> groups, std::span<const std::str
   for (const FindingGroup* group : shown)
     standing.sentences.push_back((names_study ? group->study + ": " : "") +
                                  sentence_of(*group, all, shared));
-  if (shared == nullptr) return;
-  const bool is_all = std::ranges::all_of(
-      shown, [&](const FindingGroup* group) { return is_same_range(group->commits, *shared); });
-  standing.note =
-      fmt::format("{} got worse {}.", is_all ? "All of these" : "The others", range_words(*shared));
+  if (shared != nullptr) standing.note = shared_words(shown, others, *shared);
 }
 
 /// The studies that have findings, in the order of these.

@@ -526,6 +526,29 @@ TEST(HistoryPages, SayOnceBetweenWhichNightlyRunsSeveralFindingsBegan) {
       << standing().sentences.back();
 }
 
+TEST(HistoryPages, DoNotSayOfFindingsThatAreOnlyCountedThatTheyBeganWithThoseThatAreNamed) {
+  std::vector<NightlyFinding> findings;
+  for (int i = 1; i <= 5; ++i)
+    findings.push_back({.study = "mine",
+                        .subject = "method " + std::to_string(i),
+                        .quantity = "mpe_m",
+                        .since = i <= 2 ? 2 : 3,
+                        .change = i});
+  const auto note = [&] {
+    NightlyLinks links({});
+    const StudyTrend trend = two_settings();
+    const std::vector<FindingGroup> groups = grouped(3, findings, std::span(&trend, 1), {});
+    return study_standing({.number = 3}, groups, "mine", true, links).note;
+  };
+  EXPECT_EQ(note(), "These 3 got worse between nightly runs 2 and 3.");
+  findings[4].since = 1;
+  EXPECT_EQ(note(), "The others named here got worse between nightly runs 2 and 3.");
+  findings[0].since = findings[1].since = 3;
+  EXPECT_EQ(note(), "The others got worse between nightly runs 2 and 3.");
+  findings[4].since = 3;
+  EXPECT_EQ(note(), "All of these got worse between nightly runs 2 and 3.");
+}
+
 TEST(HistoryPages, ShowASearchOnTheFirstScreenOnlyWhereItCanBeRun) {
   StudyTrend trend = two_settings();
   for (NightlyFacts& nightly_run : trend.nightly_runs) nightly_run.build.clear();
