@@ -210,6 +210,11 @@ function nameBelow(svg, at) {
   return labels[0]?.off < kReachOfValues ? labels[0].words : "";
 }
 
+// "nightly run 4" of a name that begins with a number.
+function nameOnAxis({ name }, words) {
+  return /^\d/.test(words) ? `${name.split(/[,:]/)[0]} ${words}`.trim() : words;
+}
+
 // The lines of a tip below its name.
 function wordsOfValue(svg, value) {
   const { frames, labels } = keptValues.get(svg), frame = frames[value.number];
@@ -221,7 +226,7 @@ function wordsOfValue(svg, value) {
   const isOver = (number) => Number(number) > Number(value.over);
   if (value.x !== undefined && isName) lines.push(value.x);
   else if (frame.axes[0]) lines.push(line(across, words(value.x)));
-  else lines.push(nameBelow(svg, placesNow(svg).of(value)));
+  else lines.push(nameOnAxis(across, nameBelow(svg, placesNow(svg).of(value))));
   if (value.y !== undefined) {
     lines.push(isOver(value.y) ? `${up.name} ${errorWords(value.y)}`
       : line(up, numberOnAxis(value.y)));

@@ -104,6 +104,16 @@ test("as many findings are listed as the title counts, and the curve is red", of
   await close();
 });
 
+test("a tip on a figure of trends says of which nightly run it is", ofRegressed, async () => {
+  const { page, close } = await open({}, regressed, "index.html");
+  await page.keyboard.press("Tab");  // What follows is focus by keyboard.
+  await page.locator("figure .drawing").first().focus();
+  const tip = page.locator(".tip").first();
+  await tip.waitFor();
+  assert.match(await tip.innerText(), /\nnightly run \d/);
+  await close();
+});
+
 test("the first screen says what ran, how good it is, compared with what, what is wrong and where " +
   "the rest is", ofRegressed, async () => {
   const { page, close } = await open({ viewport: { width: 1280, height: 800 } }, regressed,

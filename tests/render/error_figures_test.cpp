@@ -60,6 +60,16 @@ TEST(ErrorLinesFigure, NamesLinesOfOneLabelBesideTheirLastPoints) {
   EXPECT_EQ(ends->y, (std::vector<double>{1.0, 2.0}));
 }
 
+TEST(ErrorLinesFigure, NamesInItsAltTextThePointsAsTheAxisDoes) {
+  ErrorLinesSpec spec;
+  spec.id = "errors";
+  ErrorPanel& panel = spec.panels.emplace_back();
+  panel.x = {.label = "nightly run: date", .names = {"7: 11-22", "8: 11-23", "9: 11-24"}};
+  panel.lines = {{.label = "one", .key = "a", .x = {0.0, 1.0, 2.0}, .mean = {1.0, 2.0, 3.0}}};
+  const Figure figure = error_lines_figure(spec);
+  EXPECT_TRUE(contains(figure.alt, "one: least 1.00 at 7: 11-22, 3.00 at 9: 11-24.")) << figure.alt;
+}
+
 TEST(ErrorAxis, IsLogarithmicOnlyWhereTheMeansSpanMuch) {
   EXPECT_EQ(error_axis({0.1, 1.0}, {}).scale, Scale::kLinear);
   EXPECT_EQ(error_axis({0.1, 1.0}, {}, 6.0).scale, Scale::kLog);

@@ -163,8 +163,14 @@ std::vector<DivergedCount> count_diverged(const ErrorLinesSpec& spec) {
   return counts;
 }
 
+/// What an axis calls a value: its number, or the name that the axis has for it.
+std::string tick_words(const Axis& axis, double x) {
+  const bool has_name = x >= 0.0 && x < static_cast<double>(axis.names.size());
+  return has_name ? axis.names[static_cast<std::size_t>(x)] : data_number(x);
+}
+
 /// @param divergence  Above which the number says nothing.
-std::string words_of(const ErrorLine& line, double divergence) {
+std::string words_of(const ErrorLine& line, const Axis& axis, double divergence) {
   const auto words = [divergence](double mean) {
     return mean > divergence ? kGreatErrorText : significant(mean);
   };
@@ -176,10 +182,10 @@ std::string words_of(const ErrorLine& line, double divergence) {
     last = i;
   }
   if (last == line.mean.size()) return fmt::format(" {}: nothing known.", name);
-  std::string text =
-      fmt::format(" {}: least {} at {}", name, words(line.mean[best]), data_number(line.x[best]));
+  std::string text = fmt::format(" {}: least {} at {}", name, words(line.mean[best]),
+                                 tick_words(axis, line.x[best]));
   if (last != best)
-    text += fmt::format(", {} at {}", words(line.mean[last]), data_number(line.x[last]));
+    text += fmt::format(", {} at {}", words(line.mean[last]), tick_words(axis, line.x[last]));
   return text + ".";
 }
 
@@ -189,7 +195,7 @@ std::string alt_of(const ErrorLinesSpec& spec, const ErrorAxis& axis) {
   for (const ErrorPanel& panel : spec.panels) {
     text += fmt::format(" Over {}{}:", panel.x.label,
                         panel.title.empty() ? "" : " (" + panel.title + ")");
-    for (const ErrorLine& line : panel.lines) text += words_of(line, divergence_of(spec));
+    for (const ErrorLine& line : panel.lines) text += words_of(line, panel.x, divergence_of(spec));
     if (panel.lines.empty()) text += " nothing.";
   }
   return text;
