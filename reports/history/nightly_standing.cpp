@@ -86,7 +86,9 @@ std::string shared_words(std::span<const FindingGroup* const> shown,
   const bool are_others = std::ranges::all_of(others, is_of_range);
   std::string which;
   if (std::ranges::all_of(shown, is_of_range))
-    which = are_others ? "All of these" : fmt::format("These {}", shown.size());
+    which = are_others          ? "All of these"
+            : shown.size() == 1 ? "This"
+                                : fmt::format("These {}", shown.size());
   else
     which = are_others ? "The others" : "The others named here";
   return fmt::format("{} got worse {}.", which, range_words(shared));
