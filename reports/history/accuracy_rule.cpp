@@ -16,6 +16,7 @@
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "core/statistics/paired_runs.hpp"
+#include "reports/history/median_words.hpp"
 #include "reports/history/regression_rules.hpp"
 #include "reports/history/shown_names.hpp"
 #include "reports/model/format.hpp"
@@ -283,20 +284,21 @@ NightlyFinding finding_of(const Comparison& comparison, const PairedChange& chan
           : fmt::format("{} over {}, {} corrected for {}",
                         change.by_ranks ? "Wilcoxon's signed-rank test" : "Student's t test", units,
                         small_p_words(p), counted(static_cast<long long>(tests), "test"));
-  return {.study = evidence.trend.name,
-          .rule = HistoryRule::kAccuracy,
-          .subject = comparison.subject,
-          .quantity = quantity.id,
-          .since = evidence.trend.nightly_runs.back().number,
-          .sentence = fmt::format(
-              "{}: {} {} than in nightly run {} {}; median {} → {}{}; {}", comparison.shown,
-              quantity.label,
-              comparison.from_zero ? worse_word(quantity) : amount_words(quantity, change.shift),
-              evidence.reference->nightly_run, pairs_words(comparison, change, units),
-              significant(comparison.before), quantity_text(comparison.after, quantity.unit),
-              comparison.has_steps ? " at the last step" : "", test),
-          .change = comparison.from_zero ? std::nullopt
-                                         : std::optional(signed_amount(quantity, change.shift))};
+  return {
+      .study = evidence.trend.name,
+      .rule = HistoryRule::kAccuracy,
+      .subject = comparison.subject,
+      .quantity = quantity.id,
+      .since = evidence.trend.nightly_runs.back().number,
+      .sentence = fmt::format(
+          "{}: {} {} than in nightly run {} {}; median {}{}; {}", comparison.shown, quantity.label,
+          comparison.from_zero ? worse_word(quantity) : amount_words(quantity, change.shift),
+          evidence.reference->nightly_run, pairs_words(comparison, change, units),
+          medians_text(comparison.before, comparison.after, quantity.unit,
+                       has_great_errors(evidence.trend, quantity)),
+          comparison.has_steps ? " at the last step" : "", test),
+      .change = comparison.from_zero ? std::nullopt
+                                     : std::optional(signed_amount(quantity, change.shift))};
 }
 
 NightlyFinding finding_of(const Losses& losses, double p, const StudyEvidence& evidence) {

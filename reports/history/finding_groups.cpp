@@ -20,6 +20,7 @@
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
+#include "reports/history/median_words.hpp"
 #include "reports/history/regression_rules.hpp"
 
 namespace mapproof {
@@ -153,6 +154,7 @@ FindingGroup group_of(const NightlyFinding& finding, const StudyTrend* trend) {
     group.higher_is_better = quantity->better == Better::kHigher;
     group.is_time = is_time_unit(quantity->unit);
     group.unit = quantity->unit;
+    group.great_errors = has_great_errors(*trend, *quantity);
   }
   const SeriesId* series = series_of(finding, *trend);
   if (series == nullptr) return group;
@@ -358,21 +360,21 @@ std::string commit_url(const std::string& repository, const std::string& commit)
 
 namespace {
 
-/// "0.1", "between 0.1 and 0.2": the least and the greatest of numbers as they are shown.
-std::string span_text(const std::vector<double>& values) {
-  const auto [least, greatest] = std::ranges::minmax(values);
-  const std::string low = significant(least), high = significant(greatest);
+/// "0.1 m", "between 0.1 m and 0.2 m".
+std::string span_text(const std::string& low, const std::string& high) {
   return low == high ? low : "between " + low + " and " + high;
 }
 
-/// "from 0 to 0.00400 m", "from 0 to between 0.00400 and 0.00500 m".
-std::string from_to_text(const std::vector<MedianPair>& medians, const std::string& unit) {
-  std::vector<double> before, after;
-  for (const MedianPair& pair : medians) {
-    before.push_back(pair.before);
-    after.push_back(pair.after);
-  }
-  return fmt::format("from {} to {}", span_text(before), with_unit(span_text(after), unit));
+/// "from 0 to 0.00400 m", "from 0 to between 0.00400 m and 0.00500 m".
+std::string from_to_text(const FindingGroup& group) {
+  const auto [least, most] = std::ranges::minmax(group.from_zero, {}, &MedianPair::before);
+  const auto [low, high] = std::ranges::minmax(group.from_zero, {}, &MedianPair::after);
+  const auto text = [&](double median) {
+    return median_text(median, group.unit, group.great_errors);
+  };
+  return fmt::format("from {} to {}",
+                     span_text(significant(least.before), significant(most.before)),
+                     span_text(text(low.after), text(high.after)));
 }
 
 }  // namespace
@@ -380,7 +382,7 @@ std::string from_to_text(const std::vector<MedianPair>& medians, const std::stri
 std::string FindingGroup::change_text() const {
   if (rule == HistoryRule::kLostResults) return quantity + ": results are lost";
   const std::string subject = over_steps ? quantity + " over all steps" : quantity;
-  if (!from_zero.empty()) return subject + " " + from_to_text(from_zero, unit);
+  if (!from_zero.empty()) return subject + " " + from_to_text(*this);
   if (changes.empty()) return subject + " got worse";
   const auto [least, most] = std::ranges::minmax(changes);
   const std::string low = amount(least), high = amount(most);
@@ -411,8 +413,7 @@ std::string FindingGroup::headline() const { return method + ": " + change_of_se
 
 std::string FindingGroup::values_text() const {
   if (numbers.size() > 1 || !medians || !from_zero.empty()) return "";
-  return fmt::format("median {} → {}", significant(medians->before),
-                     quantity_text(medians->after, unit));
+  return "median " + medians_text(medians->before, medians->after, unit, great_errors);
 }
 
 std::string FindingGroup::count_text() const {

@@ -91,6 +91,7 @@ struct FindingGroup {
   std::vector<SeriesId> series = {};      ///< The first step of each that the findings are about.
   std::optional<MedianPair> medians = {};  ///< Of the first finding by rule kAccuracy.
   std::string unit = {};               ///< Of the medians.
+  bool great_errors = false;           ///< See has_great_errors().
   std::optional<NightlyNote> known = {};  ///< By which all of them are known.
   CommitRange commits = {};
 

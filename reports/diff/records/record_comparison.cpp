@@ -11,6 +11,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/text/error_text.hpp"
 #include "core/base/text/words.hpp"
+#include "core/results/great_errors.hpp"
 #include "reports/model/format.hpp"
 
 namespace mapproof {
@@ -316,7 +317,7 @@ std::string comparison_text(const Comparison& comparison, const std::string& run
   const auto changed = [&](double baseline, double current) {
     return change_text(
         unit.factor * baseline, unit.factor * current, unit.unit,
-        unit.unit == quantity.unit && has_great_errors(quantity, std::min(baseline, current)));
+        unit.unit == quantity.unit && has_great_errors(quantity, comparison.least_value));
   };
   const auto own = std::ranges::find(comparison.largest, run, &PairedValue::run);
   const bool has_own = own != comparison.largest.end();

@@ -65,6 +65,7 @@ struct Comparison {
   double baseline_mean = 0.0;  ///< Over the pairs, or without pairs over all; NaN: none.
   double current_mean = 0.0;
   double greatest_mean = 0.0;  ///< Of its quantity over all comparisons, of either side.
+  double least_value = 0.0;    ///< Of its quantity in all runs, of either side.
   std::vector<PairedValue>
       largest;                     ///< Beyond tolerance, the largest difference first; at most 20.
   std::vector<Point> values = {};  ///< Of the pairs of finite values, baseline and current, in the

@@ -263,6 +263,18 @@ void set_greatest_means(std::vector<Comparison>& all) {
   for (Comparison& one : all) one.greatest_mean = greatest[one.quantity.id];
 }
 
+/// Series that do not differ have values, too.
+void set_least_values(const RecordSet& a, const RecordSet& b, std::vector<Comparison>& all) {
+  std::map<std::string, double> least;  // By quantity.
+  for (const RecordSet* side : {&a, &b})
+    for (const auto& [key, values] : side->values) {
+      double& lowest = least.try_emplace(key.quantity, kInfinity).first->second;
+      for (const auto& [run, value] : values)
+        if (std::isfinite(value)) lowest = std::min(lowest, value);
+    }
+  for (Comparison& one : all) one.least_value = least[one.quantity.id];
+}
+
 }  // namespace
 
 bool have_same_seeds(const RecordSet& a, const RecordSet& b, const Tolerances& tolerances) {
@@ -331,6 +343,7 @@ std::vector<Comparison> compare_series(const RecordSet& a, const RecordSet& b, b
     }
   }
   set_greatest_means(all);
+  set_least_values(a, b, all);
   test_all(all, units);
   const bool one_way = point_one_way(all);
   for (Comparison& one : all) one.outcome = outcome_of(one, same_seeds, one_way, options);

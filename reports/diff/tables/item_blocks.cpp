@@ -17,6 +17,7 @@
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
+#include "core/results/great_errors.hpp"
 #include "render/plot/figure_json.hpp"
 #include "reports/diff/figures/figure_diff.hpp"
 #include "reports/diff/records/difference_summary.hpp"
@@ -42,8 +43,7 @@ std::string runs_text(const Comparison& c) {
 Row row_of(const Comparison& c) {
   const ScaledUnit unit = shown_unit(c);
   const double scale = unit.factor * std::max(std::abs(c.baseline_mean), std::abs(c.current_mean));
-  const bool errors_m = unit.unit == c.quantity.unit &&
-                        has_great_errors(c.quantity, std::min(c.baseline_mean, c.current_mean));
+  const bool errors_m = unit.unit == c.quantity.unit && has_great_errors(c.quantity, c.least_value);
   const auto mean = [&](double value) {
     // Digits that distinguish small values are those of a value that is shown.
     const double shown = errors_m && scale > kGreatestError_m ? std::abs(value) : scale;

@@ -6,6 +6,7 @@
 
 #include "core/base/text/error_text.hpp"
 #include "core/base/text/number_text.hpp"
+#include "core/results/great_errors.hpp"
 
 namespace mapproof {
 namespace {
@@ -44,11 +45,6 @@ std::pair<std::string, std::string> distinguished(double baseline, double curren
   return {short_text(baseline, enough), short_text(current, enough)};
 }
 
-bool has_great_errors(const Quantity& quantity, double least_m) {
-  return quantity.unit == "m" && quantity.better == Better::kLower &&
-         (find_quantity(quantity.id) != nullptr || least_m <= kGreatestError_m);
-}
-
 std::pair<std::string, std::string> changed_numbers(double baseline, double current) {
   constexpr double kGreatestCount = 1e6;
   const auto is_count = [](double value) {
@@ -65,7 +61,7 @@ std::pair<std::string, std::string> changed_numbers(double baseline, double curr
 
 std::string change_text(double baseline, double current, std::string_view unit, bool errors_m) {
   const auto is_great = [errors_m](double value) { return errors_m && value > kGreatestError_m; };
-  if (is_great(baseline) && is_great(current)) return fmt::format("{} as before", kGreatErrorText);
+  if (is_great(baseline) && is_great(current)) return great_errors_text(baseline, current);
   const auto [from, to] = changed_numbers(baseline, current);
   const std::string in_unit = unit.empty() ? "" : fmt::format(" {}", unit);
   if (is_great(baseline)) return fmt::format("{} \u2192 {}{}", kGreatErrorText, to, in_unit);

@@ -34,10 +34,6 @@ Tolerance tolerance_of_others(const Tolerances& changed);
 /// Both numbers with as many digits as distinguish them, at least the given count; "none" for NaN.
 std::pair<std::string, std::string> distinguished(double baseline, double current, int digits);
 
-/// Whether a quantity has errors in m, of which those above kGreatestError_m are of maps that
-/// diverged: one of mapproof's, or one with an error that is not above it.
-bool has_great_errors(const Quantity& quantity, double least_m);
-
 /// "0.120" and "0.153": as many digits as distinguish the two, at least three; of whole numbers no
 /// decimals; "none" for NaN.
 std::pair<std::string, std::string> changed_numbers(double baseline, double current);

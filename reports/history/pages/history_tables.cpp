@@ -15,6 +15,7 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/history/accuracy_rule.hpp"
+#include "reports/history/median_words.hpp"
 #include "reports/history/pages/study_course.hpp"
 #include "reports/history/shown_names.hpp"
 
@@ -23,9 +24,12 @@ namespace {
 
 TextCell text(std::string words) { return {std::move(words), Emphasis::kPlain}; }
 
-Cell number(double value, int decimals) {
+/// @param error_m  See NumberCell::error_m.
+Cell number(double value, int decimals, bool error_m = false) {
   if (!std::isfinite(value)) return MissingCell{};
-  return NumberCell{value, decimals};
+  NumberCell cell{value, decimals};
+  cell.error_m = error_m;
+  return cell;
 }
 
 /// @param verdict  Without the findings that are known.
@@ -212,14 +216,18 @@ Table accuracy_table(const StudyTrend& trend, std::span<const NightlyFinding> fo
                           {"Last", "", "", "The last nightly run"}},
               .rows = {},
               .notes = {}};
+  std::map<std::string, bool> great_errors;  // By quantity.
   for (const SeriesId& id : shown) {
     const Quantity& quantity = trend.quantities.at(id.quantity);
     const std::vector<double>& values = trend.medians.at(id);
     const double before = has_before ? values[base] : kNaN;
-    table.rows.push_back(
-        {{text(shown_subject(trend.labels, id)), text(quantity.label), text(quantity.unit),
-          number(values.front(), 4), number(before, 4), number(values.back(), 4)},
-         "medians over runs"});
+    const auto [known, is_new] = great_errors.try_emplace(id.quantity, false);
+    if (is_new) known->second = has_great_errors(trend, quantity);
+    const bool errors_m = known->second;
+    table.rows.push_back({{text(shown_subject(trend.labels, id)), text(quantity.label),
+                           text(quantity.unit), number(values.front(), 4, errors_m),
+                           number(before, 4, errors_m), number(values.back(), 4, errors_m)},
+                          "medians over runs"});
     const auto worse = std::ranges::find_if(
         groups, [&](const FindingGroup& group) { return is_in(group, trend, id); });
     if (worse != groups.end()) table.rows.back().regressed = worse->change_text();

@@ -28,6 +28,7 @@
 #include "render/figures/curves/method_series.hpp"
 #include "render/figures/diagrams/value_dots.hpp"
 #include "reports/history/finding_groups.hpp"
+#include "reports/history/median_words.hpp"
 #include "reports/history/shown_names.hpp"
 #include "reports/model/format.hpp"
 
@@ -416,10 +417,11 @@ std::optional<std::string> values_sentence(const Reported& reported, const std::
   std::ranges::stable_sort(lines, {},
                            [](const Line& line) { return level_over_nightly_runs(*line.values); });
   if (quantity.better == Better::kHigher) std::ranges::reverse(lines);
+  const bool great_errors = has_great_errors(reported.trend, quantity);
   const auto value_of = [&](const Line& line) {
-    return fmt::format("{} ({})",
-                       quantity_text(level_over_nightly_runs(*line.values), quantity.unit),
-                       shown_method(reported.trend.labels, line.id.method));
+    return fmt::format(
+        "{} ({})", median_text(level_over_nightly_runs(*line.values), quantity.unit, great_errors),
+        shown_method(reported.trend.labels, line.id.method));
   };
   const std::string setup = first_setup(reported.trend.labels, sensor);
   std::string text = fmt::format("{}{} ", setup.empty() ? "" : setup + ": ", quantity.label);
@@ -534,8 +536,9 @@ std::optional<Figure> lines_figure(const Reported& reported, const std::string& 
 /// "SMACOF has the lowest MPE, 0.0597 m": of values in the order of the lines, the best last.
 std::string best_text(const Reported& reported, const Quantity& quantity,
                       const std::vector<Line>& lines) {
+  const bool great_errors = has_great_errors(reported.trend, quantity);
   const auto value_of = [&](const Line& line) {
-    return quantity_text(level_over_nightly_runs(*line.values), quantity.unit);
+    return median_text(level_over_nightly_runs(*line.values), quantity.unit, great_errors);
   };
   const std::string best = value_of(lines.back());
   std::vector<std::string> methods;
@@ -577,6 +580,7 @@ std::optional<Figure> values_figure(const Reported& reported, const std::string&
        .x_label = label_with_unit(facts),
        .unit = facts.unit,
        .higher_is_better = facts.better == Better::kHigher,
+       .great_errors = has_great_errors(reported.trend, facts),
        .panels = {std::move(panel)}});
 }
 

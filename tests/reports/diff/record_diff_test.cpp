@@ -7,6 +7,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/records/maps/map_json.hpp"
+#include "core/results/great_errors.hpp"
 #include "core/statistics/paired_change.hpp"
 #include "reports/diff/records/difference_summary.hpp"
 #include "reports/diff/records/number_diff.hpp"
@@ -330,7 +331,8 @@ TEST(Quantities, TextsHaveNoNumbersThatNobodyReads) {
 TEST(Quantities, TextsSayThatAMapDiverged) {
   EXPECT_EQ(change_text(0.138, 8.93e13, "m", true), "0.138 m \u2192 over 1\u00A0km");
   EXPECT_EQ(change_text(8.93e13, 0.138, "m", true), "over 1\u00A0km \u2192 0.138 m");
-  EXPECT_EQ(change_text(8.93e13, 1.2e3, "m", true), "over 1\u00A0km as before");
+  EXPECT_EQ(change_text(8.93e13, 1.2e3, "m", true),
+            "over 1\u00A0km before and after (1.34×10⁻¹¹ times as great)");
   EXPECT_EQ(change_text(8.93e13, 1.2e3, "m"), "8.93\u00D710\u00B9\u00B3 \u2192 1200 m");
   EXPECT_EQ(change_text(0.138, 900.0, "m", true), "0.138 \u2192 900 m");
 }

@@ -223,6 +223,24 @@ TEST(FindingGroups, StateTheChangeOfTheMedianAsFiguresAndTablesDo) {
   EXPECT_EQ(change(), "MPE over all steps +17.6\u00a0%");
 }
 
+TEST(FindingGroups, SayThatAMapDivergedInPlaceOfItsError) {
+  StudyTrend trend = two_settings();
+  std::vector<NightlyFinding> findings = {two_findings()[0]};
+  const auto values = [&](double before, double after) {
+    trend.medians[{"bearing", "isomap-K6", 150, "mpe_m"}] = {before, before, after};
+    return grouped(3, findings, std::span(&trend, 1), {}).at(0).values_text();
+  };
+  EXPECT_EQ(values(1e6, 1.3e6), "median over 1\u00a0km before and after (1.30 times as great)");
+  EXPECT_EQ(values(0.1, 1.3e6), "median 0.100\u00a0m → over 1\u00a0km");
+
+  trend.quantities.declare(study_quantity("drift_m", "drift", "m", Better::kLower));
+  findings[0].quantity = "drift_m";
+  trend.medians[{"bearing", "isomap-K6", 150, "drift_m"}] = {2e3, 2e3, 4e3};
+  EXPECT_EQ(values(0.1, 0.1), "median 2000 → 4000\u00a0m") << "distances of that size";
+  trend.medians[{"bearing", "lpca", 150, "drift_m"}] = {0.1, 0.1, 0.1};
+  EXPECT_EQ(values(0.1, 0.1), "median over 1\u00a0km before and after (2.00 times as great)");
+}
+
 TEST(FindingGroups, OfAnErrorThatWas0HaveItsValuesForAPercentageAndComeAfterThose) {
   StudyTrend trend = two_settings();
   trend.medians[{"bearing", "isomap-K6", 150, "mpe_m"}] = {0.0, 0.0, 0.004};
@@ -238,7 +256,7 @@ TEST(FindingGroups, OfAnErrorThatWas0HaveItsValuesForAPercentageAndComeAfterThos
   EXPECT_EQ(groups()[0].headline(), "LPCA: MPE +5.0\u00a0%");
   EXPECT_EQ(groups()[1].headline(), "ISOMAP: MPE from 0 to 0.00400\u00a0m (K = 6 and 8)");
   trend.medians[{"bearing", "isomap-K8", 150, "mpe_m"}].back() = 0.005;
-  EXPECT_EQ(groups()[1].change_text(), "MPE from 0 to between 0.00400 and 0.00500\u00a0m");
+  EXPECT_EQ(groups()[1].change_text(), "MPE from 0 to between 0.00400\u00a0m and 0.00500\u00a0m");
   findings.erase(findings.begin());
   EXPECT_EQ(groups()[1].values_text(), "") << "the headline has them";
 }

@@ -51,10 +51,11 @@ NightlyRun nightly_run_of(const std::filesystem::path& folder, int number) {
   return nightly_run;
 }
 
-Judged judged(int groups, const Factor& factor) {
+Judged judged(
+    int groups, const Factor& factor,
+    const Factor& earlier = [](const std::string&, int) { return 1.0; }) {
   const TemporaryFolder folder;
-  const auto before =
-      write_table(folder, "before", groups, [](const std::string&, int) { return 1.0; });
+  const auto before = write_table(folder, "before", groups, earlier);
   const auto after = write_table(folder, "after", groups, factor);
   std::filesystem::create_directory(folder / "history");
   HistoryStore store = HistoryStore::open(folder / "history");
@@ -100,6 +101,20 @@ TEST(OneRule, OfEqualChangesInFewGroupsNeitherGivesAP) {
     EXPECT_EQ(text.find("p ="), std::string::npos) << text;
     EXPECT_EQ(text.find("p <"), std::string::npos) << text;
   }
+}
+
+TEST(OneRule, SaysOfErrorsOfMapsThatDivergedByWhichFactorTheyChanged) {
+  const auto factor = [](double of_alpha) {
+    return [of_alpha](const std::string& method, int group) {
+      return method == "alpha" ? of_alpha * (1.0 + 0.001 * group) : 1.0;
+    };
+  };
+  const std::string words = "over 1\u00a0km before and after (1.30 times as great)";
+  const auto [diff, nightly_run] = judged(6, factor(1.3e7), factor(1e7));
+  ASSERT_EQ(diff.comparisons.size(), 1U) << "beta and gamma, which did not diverge, are equal";
+  ASSERT_EQ(nightly_run.findings.size(), 1U);
+  for (const std::string& text : {diff.judgement.cause, nightly_run.findings[0].sentence})
+    EXPECT_NE(text.find(words), std::string::npos) << text;
 }
 
 TEST(OneRule, WhatIsNoiseToOneIsNoiseToTheOther) {
