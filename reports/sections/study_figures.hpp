@@ -17,8 +17,8 @@ inline constexpr std::size_t kFiguresOpen = 4;
 
 /// In the title of a figure of methods that ranks none of them: their intervals overlap, or runs
 /// are too few for intervals.
-inline constexpr const char* kNoneIsBest = "no method is clearly the best, ";
-inline constexpr const char* kTooFewRuns = "too few runs to rank the methods, ";
+inline constexpr const char* kNoneIsBest = "no method is clearly the best";
+inline constexpr const char* kTooFewRuns = "too few runs to rank the methods";
 
 /// Figures that stand together in a report.
 struct FigureGroup {

@@ -335,7 +335,7 @@ TEST(Opening, ShowsAFigureThatFoundSomethingFirst) {
   figures.groups = {{"g",
                      "Group",
                      "",
-                     {Figure{.id = "a", .title = "Hall: too few runs to rank the methods, MPE 1 m"},
+                     {Figure{.id = "a", .title = "Hall: MPE 1 m, too few runs to rank the methods"},
                       Figure{.id = "b", .title = "Hall: SDE has the lowest MPE"}}}};
   Opening opening;
   choose_figures({"a", "b"}, figures, opening);

@@ -33,6 +33,13 @@ std::string value_words(double value, const std::string& unit, bool great_errors
   return diverged ? error_text(value) : quantity_text(value, unit);
 }
 
+std::string range_title(const std::string& range, const std::string& diverged,
+                        const std::string& not_ranked) {
+  std::string text = diverged.empty() ? range : range + "; " + diverged;
+  if (!not_ranked.empty()) text += (diverged.empty() ? ", " : "; ") + not_ranked;
+  return text;
+}
+
 bool spans_widely(const std::vector<double>& values) {
   if (values.empty()) return false;
   const auto [least, greatest] = std::ranges::minmax(values);

@@ -30,6 +30,13 @@ std::string record_of(const ResultsBlock& block);
 ///                      diverged, and is "over 1 km": see ResultsView::has_great_errors().
 std::string value_words(double value, const std::string& unit, bool great_errors);
 
+/// "MPE between 0.1 m and 0.2 m; odometry over 1 km; too few runs to rank the methods": contents
+/// cut long entries at their end, so that what differs between figures stands first.
+/// @param diverged    As of diverged_words(); may be empty.
+/// @param not_ranked  Why; may be empty.
+std::string range_title(const std::string& range, const std::string& diverged,
+                        const std::string& not_ranked);
+
 /// Whether the values need a logarithmic axis.
 bool spans_widely(const std::vector<double>& values);
 

@@ -317,12 +317,12 @@ std::string course_of_one(const KnownValues& known, const Place& place) {
 }
 
 /// What lines do where none of them is called the best: of one, see course_of_one(); of several,
-/// why they are not ranked, between which values they lie and which diverged; of tiny distances,
+/// between which values they lie, which diverged and why they are not ranked; of tiny distances,
 /// how much they are at most; of what is aimed at, the aim. Empty if nothing is known.
 /// @param unit         Of the lines' values.
 /// @param great_errors  See ResultsView::has_great_errors().
 /// @param x_label      Of the axis of one line.
-/// @param not_ranked   Why, before what they do; kNoneIsBest or kTooFewRuns of one panel.
+/// @param not_ranked   Why; kNoneIsBest or kTooFewRuns of one panel.
 std::string course_of(const std::vector<ErrorLine>& lines, const Quantity& quantity,
                       const std::string& unit, bool great_errors, const std::string& x_label,
                       const std::string& not_ranked) {
@@ -355,8 +355,8 @@ std::string course_of(const std::vector<ErrorLine>& lines, const Quantity& quant
   if (const auto aim = aim_of(quantity))
     return fmt::format("{} {}, aimed at {}", in_sentence(quantity.label), span,
                        with_unit(data_number(*aim), unit));
-  return fmt::format("{}{} {}{}", has_better_side(quantity) ? not_ranked : "",
-                     in_sentence(quantity.label), span, diverged.empty() ? "" : "; " + diverged);
+  return range_title(in_sentence(quantity.label) + " " + span, diverged,
+                     has_better_side(quantity) ? not_ranked : "");
 }
 
 /// The label of the curve that shows a line; empty if none does.
@@ -470,7 +470,7 @@ std::string course_over(const ResultsView& view, const std::vector<std::vector<E
   return course_of(all, quantity, quantity.unit, view.has_great_errors(quantity), x_label,
                    !has_rivals              ? ""
                    : has_too_few_runs(view) ? kTooFewRuns
-                                            : "no method is clearly the best at most points, ");
+                                            : "no method is clearly the best at most points");
 }
 
 }  // namespace

@@ -172,10 +172,11 @@ std::optional<Figure> runs_figure(const ResultsView& view, const ResultsBlock& b
   };
   const std::string diverged =
       diverged_words(of_methods, {.unit = quantity.unit, .great_errors = spec.great_errors});
-  spec.title =
-      fmt::format("{}: {}the median {} is between {} and {}{}", block.title,
-                  has_better_side(quantity) ? kTooFewRuns : "", in_sentence(quantity.label),
-                  words(least), words(greatest), diverged.empty() ? "" : "; " + diverged);
+  spec.title = fmt::format(
+      "{}: {}", block.title,
+      range_title(fmt::format("the median {} is between {} and {}", in_sentence(quantity.label),
+                              words(least), words(greatest)),
+                  diverged, has_better_side(quantity) ? kTooFewRuns : ""));
   return value_dots_figure(spec);
 }
 
