@@ -35,6 +35,9 @@ ScaledUnit scaled_unit(const std::string& unit, double greatest) {
   if (unit == "s" && greatest < 1e-3) return {"µs", 1e6};
   if (unit == "s" && greatest < 1.0) return {"ms", 1e3};
   if (unit == "ms" && greatest < 1.0) return {"µs", 1e3};
+  if (unit == "µs" && greatest >= 1e6) return {"s", 1e-6};
+  if (unit == "µs" && greatest >= 1e3) return {"ms", 1e-3};
+  if (unit == "ms" && greatest >= 1e3) return {"s", 1e-3};
   if (unit == "ppm" && greatest < kLeastPpm) return power_unit(greatest);
   return {unit};
 }

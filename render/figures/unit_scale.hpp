@@ -14,8 +14,9 @@ struct ScaledUnit {
 };
 
 /// The unit in which the greatest of some values is written without a power of ten and with few
-/// zeros: below 1 mm it is "mm", below 0.01 rad "mrad", below 1 s "ms", below 1 ms "µs" (of "ms",
-/// too), and below 0.001 ppm a power of ten, "10⁻¹⁵" for 10⁻⁹ ppm. Any other unit stays.
+/// zeros: below 1 mm it is "mm", below 0.01 rad "mrad", below 1 s "ms", below 1 ms "µs", whether
+/// they are in s, ms or µs, and below 0.001 ppm a power of ten, "10⁻¹⁵" for 10⁻⁹ ppm. Any other
+/// unit stays.
 ScaledUnit scaled_unit(const std::string& unit, double greatest);
 
 /// The same of a quantity; an MPE is in m everywhere.

@@ -573,6 +573,11 @@ TEST(ScaledUnit, HasNeitherPowersNorManyZeros) {
   EXPECT_EQ(words("s", 0.032), "32 ms");
   EXPECT_EQ(words("s", 4.7e-4), "470 µs");
   EXPECT_EQ(words("ms", 0.0201), "20.1 µs");
+  EXPECT_EQ(words("ms", 999.0), "999 ms");
+  EXPECT_EQ(words("ms", 1495.0), "1.5 s");
+  EXPECT_EQ(words("µs", 300.0), "300 µs");
+  EXPECT_EQ(words("µs", 1495.0), "1.5 ms");
+  EXPECT_EQ(words("µs", 2.5e6), "2.5 s");
   EXPECT_EQ(words("ppm", 4.6e-9), "4.6 10⁻¹⁵");
   EXPECT_EQ(words("ppm", 12.0), "12 ppm");
   EXPECT_EQ(words("%", 1e-9), "1e-09 %");

@@ -529,6 +529,25 @@ TEST(ResultsFigures, TitlesRankNoMethodsOfFewerRunsThanAnIntervalNeeds) {
   EXPECT_TRUE(enough.title.ends_with("n has the highest coverage throughout")) << enough.title;
 }
 
+TEST(ResultsFigures, TitlesHaveEachEndOfARangeInTheUnitThatKeepsItShort) {
+  for (const bool has_axis : {true, false}) {
+    Rows rows("frame_us");
+    rows.declare(study_quantity("frame_us", "time per frame", "µs", Better::kLower));
+    for (const std::string run : {"a", "b", "c"})
+      for (const double noise : {0.1, 0.2}) {
+        if (!has_axis && noise > 0.1) continue;
+        const std::vector<Level> at =
+            has_axis ? std::vector<Level>{{"noise", noise}} : std::vector<Level>{};
+        const double some = 0.1 * (run[0] - 'b');
+        rows.add("fast", run, 300.0 + some, at).add("slow", run, 1496.0 + some, at);
+      }
+    const ResultsStudy study = rows.study();
+    const std::string title =
+        results_figures(ResultsView(study), {}).groups.at(0).figures.at(0).title;
+    EXPECT_NE(title.find("between 300\u00A0µs and 1.50\u00A0ms"), std::string::npos) << title;
+  }
+}
+
 TEST(ResultsFigures, TitlesJudgeTheWholeLineOfAMethodAlone) {
   const auto title_of = [](const std::vector<double>& values) {
     Rows rows;

@@ -33,6 +33,12 @@ std::string value_words(double value, const std::string& unit, bool great_errors
   return diverged ? error_text(value) : quantity_text(value, unit);
 }
 
+std::string lone_value(double value, const Quantity& quantity, bool great_errors) {
+  const ScaledUnit unit =
+      quantity.unit == "m" ? ScaledUnit{quantity.unit} : scaled_unit(quantity, std::abs(value));
+  return value_words(unit.factor * value, unit.unit, great_errors);
+}
+
 std::string range_title(const std::string& range, const std::string& diverged,
                         const std::string& not_ranked) {
   std::string text = diverged.empty() ? range : range + "; " + diverged;

@@ -30,6 +30,10 @@ std::string record_of(const ResultsBlock& block);
 ///                      diverged, and is "over 1 km": see ResultsView::has_great_errors().
 std::string value_words(double value, const std::string& unit, bool great_errors);
 
+/// A value by itself, in its own unit: "20.1 µs" of a study whose times are in ms. Lengths stay in
+/// metres, in which tables have them.
+std::string lone_value(double value, const Quantity& quantity, bool great_errors);
+
 /// "MPE between 0.1 m and 0.2 m; odometry over 1 km; too few runs to rank the methods": contents
 /// cut long entries at their end, so that what differs between figures stands first.
 /// @param diverged    As of diverged_words(); may be empty.

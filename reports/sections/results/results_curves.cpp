@@ -349,9 +349,10 @@ std::string course_of(const std::vector<ErrorLine>& lines, const Quantity& quant
   known = without_diverged(std::move(known), divergence_in(unit, great_errors));
   const std::string diverged = diverged_words(lines, {.unit = unit, .great_errors = great_errors});
   const auto [least, greatest] = std::ranges::minmax(known);
-  const std::string span = words(least) == words(greatest)
-                               ? words(least)
-                               : fmt::format("between {} and {}", words(least), words(greatest));
+  const Quantity shown = in_unit(quantity, {unit});
+  const std::string low = lone_value(least, shown, great_errors),
+                    high = lone_value(greatest, shown, great_errors);
+  const std::string span = low == high ? low : fmt::format("between {} and {}", low, high);
   if (const auto aim = aim_of(quantity))
     return fmt::format("{} {}, aimed at {}", in_sentence(quantity.label), span,
                        with_unit(data_number(*aim), unit));

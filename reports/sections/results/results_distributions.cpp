@@ -167,9 +167,7 @@ std::optional<Figure> runs_figure(const ResultsView& view, const ResultsBlock& b
       in_sentence(quantity.label));
   medians = without_diverged(std::move(medians), divergence_in(quantity.unit, spec.great_errors));
   const auto [least, greatest] = std::ranges::minmax(medians);
-  const auto words = [&](double median) {
-    return value_words(median, quantity.unit, spec.great_errors);
-  };
+  const auto words = [&](double median) { return lone_value(median, quantity, spec.great_errors); };
   const std::string diverged =
       diverged_words(of_methods, {.unit = quantity.unit, .great_errors = spec.great_errors});
   spec.title = fmt::format(

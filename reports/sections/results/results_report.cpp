@@ -22,7 +22,6 @@
 #include "core/base/text/slug.hpp"
 #include "core/base/text/words.hpp"
 #include "core/evaluate/evaluation_rows.hpp"
-#include "render/figures/unit_scale.hpp"
 #include "reports/model/format.hpp"
 #include "reports/model/page_text.hpp"
 #include "reports/sections/opening.hpp"
@@ -312,14 +311,6 @@ std::string name_with_poses(const ResultsReportInput& input, std::size_t method)
              : fmt::format("{} ({})", label.label, counted(poses->second, "pose"));
 }
 
-/// A value by itself, in its own unit: "20.1 µs" of a study whose times are in ms. Lengths stay in
-/// metres, in which tables have them.
-std::string lone_value(double value, const Quantity& quantity) {
-  if (quantity.unit == "m") return quantity_text(value, quantity.unit);
-  const ScaledUnit unit = scaled_unit(quantity, std::abs(value));
-  return quantity_text(unit.factor * value, unit.unit);
-}
-
 constexpr std::size_t kMostLeftOut = 2;  ///< Methods that a tile names as not compared.
 
 /// The best method's mean in the first comparisons, each of another quantity or setup.
@@ -328,6 +319,7 @@ void add_best_values(const ResultsReportInput& input, Highlights& numbers) {
   for (const MethodComparison& comparison : input.comparisons) {
     if (!is_crowned(*comparison.quantity)) continue;
     const std::string label = comparison.quantity->label;
+    const bool great_errors = input.view.has_great_errors(*comparison.quantity);
     // "ATE, RMSE", "ATE, mean" and "ATE, median" are one thing.
     const std::string stem = label.substr(0, label.find(','));
     if (numbers.items.size() == kMostNumbers || std::ranges::find(shown, stem) != shown.end())
@@ -343,7 +335,7 @@ void add_best_values(const ResultsReportInput& input, Highlights& numbers) {
     std::string note = name_with_poses(input, best.method) + "; ";
     if (!has_groups_for_tests(comparison))
       note += fmt::format("{} {}", name_with_poses(input, next.method),
-                          lone_value(next.mean, *comparison.quantity));
+                          lone_value(next.mean, *comparison.quantity, great_errors));
     else if (worse == 0)
       note += left_out.empty()
                   ? "not significantly better than any other method (paired test)"
@@ -361,7 +353,8 @@ void add_best_values(const ResultsReportInput& input, Highlights& numbers) {
         {fmt::format("{} {}, {}", is_one ? "best" : "best mean of", in_sentence(label),
                      in_sentence(comparison.block->title) +
                          where_of(comparison).substr(comparison.block->title.size())),
-         lone_value(best.mean, *comparison.quantity), std::move(note), comparison.block->id});
+         lone_value(best.mean, *comparison.quantity, great_errors), std::move(note),
+         comparison.block->id});
   }
 }
 
@@ -418,11 +411,12 @@ void add_best_over_runs(const ResultsReportInput& input, Highlights& numbers) {
   const auto best = best_over_runs(input.view);
   if (!best) return;
   const ResultsStudy& study = input.view.study();
-  numbers.items.push_back({fmt::format("median {} of the best method", best->quantity->label),
-                           lone_value(best->median, *best->quantity),
-                           fmt::format("{}, over {}", study.methods[best->method].label,
-                                       counted(std::ssize(study.runs), "data set")),
-                           input.view.blocks().front().id});
+  numbers.items.push_back(
+      {fmt::format("median {} of the best method", best->quantity->label),
+       lone_value(best->median, *best->quantity, input.view.has_great_errors(*best->quantity)),
+       fmt::format("{}, over {}", study.methods[best->method].label,
+                   counted(std::ssize(study.runs), "data set")),
+       input.view.blocks().front().id});
 }
 
 /// "only 75.1 % of the poses are associated (orb, desk)"; empty if there are enough of each path.
@@ -456,8 +450,8 @@ void add_means(const ResultsReportInput& input, Highlights& numbers) {
       shown.push_back(stem);
       numbers.items.push_back(
           {quantity->label + (block.factor.empty() ? "" : ", " + view.words_of(block, last)),
-           lone_value(mean->mean, *quantity), study.methods[lines.front().index].label,
-           section_id(input, block),
+           lone_value(mean->mean, *quantity, view.has_great_errors(*quantity)),
+           study.methods[lines.front().index].label, section_id(input, block),
            quantity->id == kAssociatedPercent && !few_associated(study).empty()});
     }
 }
