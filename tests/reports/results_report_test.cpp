@@ -53,7 +53,7 @@ TEST(ResultsReport, CrownsNoMethodForItsCoverageAndSaysItsPoses) {
   EXPECT_EQ(best.detail, "many (785 poses); few (32 poses) 0.0240\u00a0m");
 }
 
-TEST(ResultsReport, GivesTheNumberOfATileInTheUnitThatKeepsItShort) {
+TEST(ResultsReport, GivesNumbersOfTilesAndSentencesInTheUnitThatKeepsThemShort) {
   Rows rows("scan_s");
   rows.declare(study_quantity("scan_s", "time per scan", "s", Better::kLower));
   rows.add("fast", "a1", 2.01e-5).add("slow", "a1", 0.0015).add("slower", "a1", 0.014);
@@ -62,6 +62,9 @@ TEST(ResultsReport, GivesTheNumberOfATileInTheUnitThatKeepsItShort) {
   const Report report = results_report(
       {.view = view, .comparisons = compare_methods(view), .figures = {}, .provenance = {}});
   EXPECT_EQ(report.opening.numbers.items.at(0).value, "20.1\u00a0µs");
+  const std::string sentence = report.opening.findings.at(0).phrases.at(0).text;
+  EXPECT_NE(sentence.find(", 20.1\u00a0µs; slow follows with 1.50\u00a0ms"), std::string::npos)
+      << sentence;
 }
 
 TEST(ResultsReport, WarnsOfPathsOfWhichFewPosesAreAssociated) {

@@ -201,7 +201,7 @@ std::string sentence_of(const MethodComparison& comparison, const ResultsView& v
   const Quantity& quantity = *comparison.quantity;
   const ComparedMethod &best = comparison.methods[0], &next = comparison.methods[1];
   const auto words = [&](double mean) {
-    return value_words(mean, quantity.unit, view.has_great_errors(quantity));
+    return lone_value(mean, quantity, view.has_great_errors(quantity));
   };
   std::string text =
       fmt::format("{}: {} has the {} {}{}, {}; {} follows with {}", where_of(comparison),
