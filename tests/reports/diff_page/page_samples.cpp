@@ -76,8 +76,8 @@ RecordDiff records(Trap& text) {
   diff.new_subjects = {text()};
   diff.anchors = {text()};
   Comparison comparison;
-  comparison.subject = text();
-  comparison.label = {text()};
+  comparison.subject = text();  // Shown by its label alone.
+  comparison.label = {comparison.subject};
   comparison.current_subject = comparison.subject;
   comparison.quantity = known_quantity("mpe_m");
   comparison.outcome = Outcome::kWorse;
