@@ -222,7 +222,7 @@ TEST(ForeignNightlyRuns, AnErrorThatWas0HasNoPercentage) {
   const NightlyFinding& one = last.findings[0];
   EXPECT_TRUE(
       one.sentence.starts_with("indoors, gamma, noise 0.1: ATE higher than in nightly run 1 in "
-                               "pairs of groups; median 0 → "))
+                               "each of 6 groups; median 0 → "))
       << one.sentence;
   EXPECT_EQ(one.sentence.find('%'), std::string::npos) << one.sentence;
   EXPECT_EQ(one.change, std::nullopt);
