@@ -16,7 +16,7 @@
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "core/statistics/paired_runs.hpp"
-#include "reports/history/median_words.hpp"
+#include "reports/history/great_medians.hpp"
 #include "reports/history/regression_rules.hpp"
 #include "reports/history/shown_names.hpp"
 #include "reports/model/format.hpp"

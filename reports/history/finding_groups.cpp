@@ -20,7 +20,7 @@
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
-#include "reports/history/median_words.hpp"
+#include "reports/history/great_medians.hpp"
 #include "reports/history/regression_rules.hpp"
 
 namespace mapproof {

@@ -15,7 +15,7 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/history/accuracy_rule.hpp"
-#include "reports/history/median_words.hpp"
+#include "reports/history/great_medians.hpp"
 #include "reports/history/pages/study_course.hpp"
 #include "reports/history/shown_names.hpp"
 

@@ -28,7 +28,7 @@
 #include "render/figures/curves/method_series.hpp"
 #include "render/figures/diagrams/value_dots.hpp"
 #include "reports/history/finding_groups.hpp"
-#include "reports/history/median_words.hpp"
+#include "reports/history/great_medians.hpp"
 #include "reports/history/shown_names.hpp"
 #include "reports/model/format.hpp"
 

@@ -1,4 +1,4 @@
-#include "reports/history/median_words.hpp"
+#include "reports/history/great_medians.hpp"
 
 #include <algorithm>
 #include <cmath>
