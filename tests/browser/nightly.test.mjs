@@ -105,7 +105,8 @@ test("as many findings are listed as the title counts, and the curve is red", of
 });
 
 test("a tip on a figure of trends says of which nightly run it is", ofRegressed, async () => {
-  const { page, close } = await open({}, regressed, "index.html");
+  const { page, close } = await open({}, regressed,
+    "trends/localisers/report.html");
   await page.keyboard.press("Tab");  // What follows is focus by keyboard.
   await page.locator("figure .drawing").first().focus();
   const tip = page.locator(".tip").first();
