@@ -66,7 +66,7 @@ TEST_F(StudyOfAnotherProgram, IsComparedValueByValueWithItsTest) {
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_NE(outcome.out.find(
                 "absolute trajectory error 0.135 → 0.500 m in run 17 alone of 40, p = 0.343 of "
-                "indoors, EKF, laser noise 0.05 m"),
+                "indoors, EKF, laser noise 0.05\u00a0m"),
             std::string::npos)
       << outcome.out;
   EXPECT_EQ(mapproof({"approve", folder_ / "baseline", folder_ / "mine", "--all"}).exit_code, 0);
