@@ -96,7 +96,8 @@ struct ParetoSpec {
 std::vector<std::size_t> pareto_front(const std::vector<CostedSetting>& settings);
 
 /// Error against the time per map, a point per setting, those on the front filled, named and
-/// joined; of those whose maps diverged see curves/diverged.hpp. Times differ from run to run: the figure is marked so.
+/// joined; of those whose maps diverged see curves/diverged.hpp. Times differ from run to run: the
+/// figure is marked so.
 /// @throws InvalidInput if a value is infinite or negative.
 Figure pareto_figure(const ParetoSpec& spec);
 
